@@ -1,0 +1,11 @@
+/// The commands of the program; each returns its exit code.
+#pragma once
+#include "options.h"
+
+namespace vkpm {
+
+int render(const Options& options);
+int showDevices(const Options& options);
+int bench(const Options& options);
+
+} // namespace vkpm

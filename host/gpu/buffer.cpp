@@ -1,0 +1,101 @@
+/// Device memory: allocation, and copies to and from the host.
+#include "gpu/buffer.h"
+#include "gpu/buffer_handles.h"
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <utility>
+
+namespace vkpm {
+
+using Usage = vk::BufferUsageFlagBits;
+using Property = vk::MemoryPropertyFlagBits;
+
+static int findMemoryType(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
+    const auto memory = device.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++)
+        if ((allowed >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return static_cast<int>(i);
+    return -1;
+}
+
+struct Allocation {
+    vk::raii::Buffer buffer{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+};
+
+static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::MemoryPropertyFlags wanted) {
+    const auto& device = gpu.handles->device;
+    Allocation result;
+    attempt(fmt::format("allocating {:.1f} MiB of device memory for '{}'", double(bytes) / 1048576, name),
+            "ask for fewer photons or a smaller image", [&] {
+        result.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo{
+            .size = bytes,
+            .usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst});
+        const auto needs = result.buffer.getMemoryRequirements();
+        const int type = findMemoryType(gpu.handles->physical, needs.memoryTypeBits, wanted);
+        if (type < 0) throw GpuError(fmt::format("no memory type of the device fits buffer '{}'", name));
+        const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
+        result.memory = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{
+            .pNext = &flags, .allocationSize = needs.size, .memoryTypeIndex = static_cast<std::uint32_t>(type)});
+        result.buffer.bindMemory(*result.memory, 0);
+    });
+    return result;
+}
+
+RawBuffer::RawBuffer() noexcept = default;
+
+RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size) : bytes(size) {
+    if (bytes == 0) return;
+    const bool maps = gpu.handles->mapsDeviceMemory;
+    const auto wanted = maps ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags(Property::eDeviceLocal);
+    Allocation allocation = allocate(gpu, name, bytes, wanted);
+    handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory), std::move(allocation.buffer), nullptr, bytes);
+    address = gpu.handles->device.getBufferAddress({.buffer = *handles->buffer});
+    if (maps) handles->mapped = handles->memory.mapMemory(0, VK_WHOLE_SIZE);
+    gpu.memory[handles->name] += bytes;
+    std::uint64_t total = 0;
+    for (const auto& [_, used] : gpu.memory) total += used;
+    gpu.peakBytes = std::max(gpu.peakBytes, total);
+}
+
+RawBuffer::Handles::~Handles() {
+    gpu.memory[name] -= bytes;
+}
+
+RawBuffer::RawBuffer(RawBuffer&& other) noexcept { *this = std::move(other); }
+
+RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
+    handles = std::move(other.handles);
+    address = std::exchange(other.address, 0);
+    bytes = std::exchange(other.bytes, 0);
+    return *this;
+}
+
+RawBuffer::~RawBuffer() = default;
+
+// Copies between the buffer and a staging buffer that the host sees.
+static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset, const std::function<void(void*)>& before,
+                  const std::function<void(const void*)>& after) {
+    const Allocation staging = allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
+    void* mapped = staging.memory.mapMemory(0, VK_WHOLE_SIZE);
+    if (before) before(mapped);
+    handles.gpu.handles->execute([&](const vk::raii::CommandBuffer& commands) {
+        if (before) commands.copyBuffer(*staging.buffer, *handles.buffer, vk::BufferCopy{.dstOffset = offset, .size = bytes});
+        else commands.copyBuffer(*handles.buffer, *staging.buffer, vk::BufferCopy{.srcOffset = offset, .size = bytes});
+    });
+    if (after) after(mapped);
+}
+
+void RawBuffer::write(const void* data, std::uint64_t size, std::uint64_t offset) {
+    if (size == 0) return;
+    if (handles->mapped) std::memcpy(static_cast<char*>(handles->mapped) + offset, data, size);
+    else stage(*handles, size, offset, [&](void* mapped) { std::memcpy(mapped, data, size); }, {});
+}
+
+void RawBuffer::read(void* data, std::uint64_t size, std::uint64_t offset) const {
+    if (size == 0) return;
+    if (handles->mapped) std::memcpy(data, static_cast<const char*>(handles->mapped) + offset, size);
+    else stage(*handles, size, offset, {}, [&](const void* mapped) { std::memcpy(data, mapped, size); });
+}
+
+} // namespace vkpm

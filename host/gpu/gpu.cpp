@@ -1,0 +1,189 @@
+/// Instance, choice of device, and its one compute queue.
+#include "gpu/handles.h"
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace vkpm {
+
+static const char* installHint = "install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers), or run tools/setup";
+
+static bool wantsValidation() {
+    const char* value = std::getenv("VKPM_VALIDATION");
+    return value && std::strcmp(value, "0") != 0;
+}
+
+// A message of the validation layer is a defect of vkpm: say it and stop, so that no test passes over it.
+static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
+    std::fprintf(stderr, "vkpm: validation: %s\n", data->pMessage);
+    std::abort();
+}
+
+static vk::raii::Instance createInstance(const vk::raii::Context& context, bool validate) {
+    const vk::ApplicationInfo application{.pApplicationName = "vkpm", .apiVersion = VK_API_VERSION_1_3};
+    const std::vector<const char*> layers = validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
+    const std::vector<const char*> extensions = validate ? std::vector{VK_EXT_DEBUG_UTILS_EXTENSION_NAME} : std::vector<const char*>{};
+    const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
+                             vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
+                             vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    vk::ValidationFeaturesEXT features;
+    features.setEnabledValidationFeatures(enabled);
+    vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};
+    create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
+    return attempt("vkCreateInstance", validate ? "VKPM_VALIDATION needs vulkan-validationlayers" : installHint,
+                   [&] { return vk::raii::Instance(context, create); });
+}
+
+static int computeFamily(const vk::raii::PhysicalDevice& device) {
+    const auto families = device.getQueueFamilyProperties();
+    for (std::size_t i = 0; i < families.size(); i++)
+        if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return static_cast<int>(i);
+    return -1;
+}
+
+static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device) {
+    std::vector<std::string> lacks;
+    if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
+    const auto features = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                              vk::PhysicalDeviceVulkan13Features>();
+    const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
+    const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+    const auto limits = device.getProperties().limits;
+    const auto need = [&](bool has, const char* what) { if (!has) lacks.push_back(what); };
+    need(v12.bufferDeviceAddress, "bufferDeviceAddress");
+    need(v12.scalarBlockLayout, "scalarBlockLayout");
+    need(v13.synchronization2, "synchronization2");
+    need(v13.maintenance4, "maintenance4");
+    need(limits.maxPushConstantsSize >= 128, "128 bytes of push constants");
+    need(limits.maxComputeSharedMemorySize >= 16384, "16 KiB of shared memory");
+    need(limits.maxComputeWorkGroupInvocations >= 64, "64 invocations in a work group");
+    need(computeFamily(device) >= 0, "a compute queue");
+    return lacks;
+}
+
+static DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
+    DeviceInfo info{.lacks = findLacks(device)};
+    const auto properties = device.getProperties();
+    info.name = std::string(properties.deviceName.data());
+    info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                                  VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
+    if (properties.apiVersion >= VK_API_VERSION_1_2) {
+        const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
+                                                 vk::PhysicalDeviceVulkan12Properties>();
+        const auto& v12 = chain.get<vk::PhysicalDeviceVulkan12Properties>();
+        info.driver = fmt::format("{} {}", v12.driverName.data(), v12.driverInfo.data());
+        info.subgroupSize = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+    }
+    const auto memory = device.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+            info.memoryBytes = std::max<std::uint64_t>(info.memoryBytes, memory.memoryHeaps[i].size);
+    return info;
+}
+
+static std::string describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
+    std::string text;
+    for (std::size_t i = 0; i < devices.size(); i++) {
+        const DeviceInfo info = describe(devices[i]);
+        text += fmt::format("\n  {}: {}{}", i, info.name,
+                            info.lacks.empty() ? "" : fmt::format(" (lacks {})", fmt::join(info.lacks, ", ")));
+    }
+    return text;
+}
+
+// The device asked for; else the first complete one of the fastest type.
+static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& devices, std::string_view wanted) {
+    if (devices.empty()) throw GpuError(fmt::format("vkEnumeratePhysicalDevices found no Vulkan device; {}", installHint));
+    const auto rank = [&](std::size_t i) {
+        const auto type = devices[i].getProperties().deviceType;
+        if (!findLacks(devices[i]).empty()) return 4;
+        if (type == vk::PhysicalDeviceType::eDiscreteGpu) return 0;
+        if (type == vk::PhysicalDeviceType::eIntegratedGpu) return 1;
+        return type == vk::PhysicalDeviceType::eCpu ? 3 : 2;
+    };
+    std::size_t chosen = 0;
+    for (std::size_t i = 1; i < devices.size(); i++)
+        if (rank(i) < rank(chosen)) chosen = i;
+    if (!wanted.empty()) {
+        chosen = devices.size();
+        for (std::size_t i = devices.size(); i-- > 0;) {
+            const bool named = std::string_view(devices[i].getProperties().deviceName.data()).find(wanted) != std::string_view::npos;
+            if (named || wanted == std::to_string(i)) chosen = i;
+        }
+    }
+    if (chosen == devices.size()) throw GpuError(fmt::format("no Vulkan device is '{}'; there are:{}", wanted, describeAll(devices)));
+    if (rank(chosen) == 4) throw GpuError(fmt::format("the Vulkan device lacks what vkpm needs; there are:{}\n{}", describeAll(devices), installHint));
+    return chosen;
+}
+
+static vk::raii::Device createDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
+    vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .maintenance4 = true};
+    vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .hostQueryReset = true, .bufferDeviceAddress = true};
+    const vk::PhysicalDeviceFeatures2 features{.pNext = &v12};
+    const vk::DeviceCreateInfo create{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    return attempt("vkCreateDevice", installHint, [&] { return vk::raii::Device(physical, create); });
+}
+
+const std::uint32_t stampCount = 8192;
+
+static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
+    auto vk = std::make_unique<Gpu::Handles>();
+    const bool validate = wantsValidation();
+    vk->instance = createInstance(vk->context, validate);
+    if (validate) {
+        const vk::DebugUtilsMessengerCreateInfoEXT create{
+            .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
+            .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
+            .pfnUserCallback = onMessage};
+        vk->messenger = vk->instance.createDebugUtilsMessengerEXT(create);
+    }
+    auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return vk->instance.enumeratePhysicalDevices(); });
+    vk->physical = std::move(devices[chooseDevice(devices, wanted)]);
+    vk->info = describe(vk->physical);
+    vk->family = static_cast<std::uint32_t>(computeFamily(vk->physical));
+    vk->device = createDevice(vk->physical, vk->family);
+    vk->queue = vk->device.getQueue(vk->family, 0);
+    vk->commands = vk->device.createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = vk->family});
+    const auto properties = vk->physical.getProperties();
+    if (vk->physical.getQueueFamilyProperties()[vk->family].timestampValidBits > 0)
+        vk->nanosecondsPerTick = properties.limits.timestampPeriod;
+    vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
+    vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu;
+    return vk;
+}
+
+void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+    attempt("running commands on the device", "another program may have hung or reset it", [&] {
+        const auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+        buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        record(buffers[0]);
+        buffers[0].end();
+        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *buffers[0]};
+        const vk::SubmitInfo2 submit{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo};
+        const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
+        queue.submit2(submit, *fence);
+        const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
+        if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
+    });
+}
+
+Gpu::Gpu(std::string_view wanted) : handles(open(wanted)) {}
+Gpu::~Gpu() = default;
+
+const DeviceInfo& Gpu::info() const { return handles->info; }
+
+std::vector<DeviceInfo> listDevices() {
+    const vk::raii::Context context;
+    const vk::raii::Instance instance = createInstance(context, false);
+    std::vector<DeviceInfo> infos;
+    for (const auto& device : attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.enumeratePhysicalDevices(); }))
+        infos.push_back(describe(device));
+    return infos;
+}
+
+} // namespace vkpm

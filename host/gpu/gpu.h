@@ -1,0 +1,57 @@
+/// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files here use.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpm {
+
+/// The environment failed: no device, a failing driver, no memory. Says the call, the cause and what helps. Exit code 1.
+struct GpuError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct DeviceInfo {
+    std::string name;
+    std::string driver;
+    std::string apiVersion;
+    std::uint32_t subgroupSize = 0;
+    std::uint64_t memoryBytes = 0;  // of the largest device-local heap
+    std::vector<std::string> lacks; // what vkpm needs and the device does not have
+};
+
+/// Seconds and dispatches of a kernel over a Gpu's life.
+struct KernelTime {
+    double seconds = 0;
+    std::uint64_t dispatches = 0;
+};
+
+class Gpu {
+public:
+    /// Opens a device by index or by part of its name; without either the first that lacks nothing, GPUs before CPUs.
+    explicit Gpu(std::string_view wanted = {});
+    ~Gpu();
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    const DeviceInfo& info() const;
+
+    /// Bytes now allocated, by the buffers' names.
+    std::map<std::string, std::uint64_t> memory;
+    /// The most bytes that were ever allocated at one time.
+    std::uint64_t peakBytes = 0;
+    /// Time spent in kernels, by name.
+    std::map<std::string, KernelTime> times;
+
+    struct Handles;
+    const std::unique_ptr<Handles> handles;
+};
+
+/// All devices of this machine, in the order of their indices.
+std::vector<DeviceInfo> listDevices();
+
+} // namespace vkpm

@@ -1,0 +1,106 @@
+/// Command buffers: push, dispatch, stamp the time, barrier.
+#include "gpu/recording.h"
+#include "gpu/buffer_handles.h"
+#include "gpu/kernel_handles.h"
+#include <algorithm>
+
+namespace vkpm {
+
+const std::uint32_t maxStamps = 8192;
+const std::uint64_t maxGroupsPerAxis = 65535;
+
+struct Recording::Handles {
+    Gpu& gpu;
+    vk::raii::CommandBuffer commands{nullptr};
+    std::vector<std::string> names; // of the runs between stamps i and i + 1
+    bool open = false;
+
+    // All that ran before is visible to all that runs after.
+    void barrier() {
+        const vk::MemoryBarrier2 barrier{
+            .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+            .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+        commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+    }
+
+    void stamp(std::string name) {
+        barrier();
+        names.push_back(std::move(name));
+        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
+    }
+
+    void bind(const RawKernel& kernel, const void* args, std::uint32_t bytes) {
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel.handles->pipeline);
+        commands.pushConstants<std::uint8_t>(*kernel.handles->layout, vk::ShaderStageFlagBits::eCompute, 0,
+                                             vk::ArrayProxy<const std::uint8_t>(bytes, static_cast<const std::uint8_t*>(args)));
+    }
+};
+
+Recording::Recording(Gpu& gpu) : handles(std::make_unique<Handles>(Handles{.gpu = gpu})) {}
+Recording::~Recording() = default;
+
+void Recording::begin() {
+    if (handles->names.size() + 2 >= maxStamps) submit();
+    if (handles->open) return;
+    const auto& vk = *handles->gpu.handles;
+    vk.stamps.reset(0, maxStamps);
+    auto buffers = vk.device.allocateCommandBuffers({.commandPool = *vk.commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    handles->commands = std::move(buffers[0]);
+    handles->commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
+    handles->open = true;
+}
+
+void Recording::dispatch(const RawKernel& kernel, std::uint64_t threads, const void* args, std::uint32_t bytes) {
+    if (threads == 0) return;
+    begin();
+    handles->bind(kernel, args, bytes);
+    const std::uint64_t groups = (threads + GROUP - 1) / GROUP;
+    const std::uint64_t columns = std::min(groups, maxGroupsPerAxis);
+    const std::uint64_t rows = (groups + columns - 1) / columns;
+    handles->commands.dispatch(static_cast<uint>(columns), static_cast<uint>(rows), 1);
+    handles->stamp(kernel.handles->name);
+}
+
+void Recording::dispatchIndirect(const RawKernel& kernel, const RawBuffer& queues, std::uint64_t offset, const void* args, std::uint32_t bytes) {
+    begin();
+    handles->bind(kernel, args, bytes);
+    handles->commands.dispatchIndirect(*queues.handles->buffer, offset);
+    handles->stamp(kernel.handles->name);
+}
+
+void Recording::clear(const RawBuffer& buffer) {
+    if (buffer.bytes == 0) return;
+    begin();
+    handles->commands.fillBuffer(*buffer.handles->buffer, 0, VK_WHOLE_SIZE, 0);
+    handles->stamp("clear");
+}
+
+void Recording::submit() {
+    if (!handles->open) return;
+    const auto& vk = *handles->gpu.handles;
+    attempt("running kernels on the device", "another program may have hung or reset it", [&] {
+        handles->commands.end();
+        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *handles->commands};
+        const vk::SubmitInfo2 submit{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo};
+        const vk::raii::Fence fence(vk.device, vk::FenceCreateInfo{});
+        vk.queue.submit2(submit, *fence);
+        const vk::Result result = vk.device.waitForFences(*fence, true, UINT64_MAX);
+        if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
+    });
+    // Time between two stamps belongs to the run between them.
+    const auto count = static_cast<std::uint32_t>(handles->names.size()) + 1;
+    const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++) {
+        KernelTime& time = handles->gpu.times[handles->names[i]];
+        time.seconds += double(ticks[i + 1] - ticks[i]) * handles->gpu.handles->nanosecondsPerTick * 1e-9;
+        time.dispatches++;
+    }
+    handles->names.clear();
+    handles->open = false;
+}
+
+} // namespace vkpm

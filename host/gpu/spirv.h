@@ -1,0 +1,23 @@
+/// The kernels embedded in the program, by name; each target's generated file registers its own.
+#pragma once
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+namespace vkpm {
+
+struct EmbeddedSpirv {
+    std::string_view name;
+    std::span<const std::uint32_t> words;
+};
+
+/// Registers kernels before main starts.
+struct SpirvRegistration {
+    SpirvRegistration(std::initializer_list<EmbeddedSpirv> kernels);
+};
+
+/// The SPIR-V words of a kernel; the name must be that of a .comp file.
+std::span<const std::uint32_t> findSpirv(std::string_view name);
+
+} // namespace vkpm

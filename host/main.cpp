@@ -1,0 +1,33 @@
+/// vkpm on one screen: read the command line, load, render pass by pass, save.
+#include "commands.h"
+#include "options.h"
+#include "output/interrupt.h"
+#include "gpu/gpu.h"
+#include "scene/scene.h"
+#include <cstdio>
+#include <exception>
+
+using namespace vkpm;
+
+static int run(const Options& options) {
+    switch (options.command) {
+    case Command::Print: std::fputs(options.text.c_str(), stdout); return 0;
+    case Command::Devices: return showDevices(options);
+    case Command::Bench: return bench(options);
+    case Command::Render: return render(options);
+    }
+    return 0;
+}
+
+int main(int count, char** arguments) {
+    try {
+        catchInterrupts();
+        return run(parseOptions(count, arguments));
+    } catch (const InputError& error) {
+        std::fprintf(stderr, "vkpm: %s\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "vkpm: %s\n", error.what());
+        return 1;
+    }
+}

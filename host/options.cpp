@@ -1,0 +1,183 @@
+/// The command line.
+#include "options.h"
+#include "option_parser.h"
+
+namespace vkpm {
+namespace {
+
+const Words INTEGRATORS{{"photon", INTEGRATOR_PHOTON},
+                        {"path", INTEGRATOR_PATH},
+                        {"direct", INTEGRATOR_DIRECT},
+                        {"photon-map", INTEGRATOR_PHOTON_MAP}};
+const Words MAPS{{"global", 0}, {"caustic", 1}};
+const Words SHOWS{{"estimate", 0}, {"points", 1}};
+const Words KERNELS{{"constant", KERNEL_CONSTANT},
+                    {"cone", KERNEL_CONE},
+                    {"gauss", KERNEL_GAUSS},
+                    {"epanechnikov", KERNEL_EPANECHNIKOV}};
+const Words FRESNELS{{"exact", 0}, {"schlick", 1}};
+
+void addDevice(Parser& parser, Options& options) {
+    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)",
+               [&](auto&, auto& value) { options.device = value; });
+}
+
+void addFiles(Parser& parser, Options& options) {
+    parser.group("Files");
+    parser.add("--scene", "FILE", "scene to render (JSON); required",
+               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("-o,--output", "FILE.exr", "image; a PNG is written beside it (default: the scene's name, here)",
+               [&](auto& name, auto& value) { options.output = exrOf(name, value); });
+    parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory",
+               [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
+}
+
+void addImage(Parser& parser, Options& options, const Settings& defaults) {
+    const auto count = [&](const std::string& name, const std::string& help, uint low, uint high, auto& target) {
+        parser.add(name, "N", help,
+                   [=, &target](auto& option, auto& text) { target = countOf(option, text, low, high); });
+    };
+    parser.group("Image (overrides the scene file, which overrides the defaults)");
+    parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y),
+               [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
+    count("--passes", fmt::format("passes over the whole image (default {})", defaults.passes), 1, MAX_COUNT,
+          options.passes);
+    count("--seed", fmt::format("seed of the random numbers (default {})", defaults.seed), 0, NONE, options.seed);
+    parser.words("--integrator", INTEGRATORS,
+                 fmt::format("how light is found (default {})", wordOf(INTEGRATORS, defaults.integrator)),
+                 [&](uint value) { options.integrator = value; });
+    parser.words("--map", MAPS, fmt::format("photon-map: which map (default {})", wordOf(MAPS, defaults.showCaustic)),
+                 [&](uint value) { options.showCaustic = value; });
+    parser.words("--show", SHOWS, fmt::format("photon-map: as what (default {})", wordOf(SHOWS, defaults.showPoints)),
+                 [&](uint value) { options.showPoints = value; });
+    parser.words("--fresnel", FRESNELS,
+                 fmt::format("reflectance of glass (default {})", wordOf(FRESNELS, defaults.schlick)),
+                 [&](uint value) { options.schlick = value; });
+}
+
+void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
+    const auto count = [&](const std::string& name, const std::string& help, auto& target) {
+        parser.add(name, "N", help, [&](auto& option, auto& text) { target = countOf(option, text, 0, MAX_COUNT); });
+    };
+    const auto radius = [&](const std::string& name, const std::string& help, auto& target) {
+        parser.add(name, "R", help, [&](auto& option, auto& text) { target = radiusOf(option, text); });
+    };
+    parser.group("Photons (likewise)");
+    count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
+    count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
+          options.causticPhotons);
+    radius("--radius", "first gather radius, world units (default: by the size of the scene)", options.radius);
+    radius("--caustic-radius", "the same for caustics", options.causticRadius);
+    count("--nearest", fmt::format("gather the N nearest within the radius; 0: all (default {})", defaults.nearest),
+          options.nearest);
+    parser.words("--kernel", KERNELS,
+                 fmt::format("of the density estimate (default {})", wordOf(KERNELS, defaults.kernel)),
+                 [&](uint value) { options.kernel = value; });
+}
+
+const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
+  render                         render without a window; may be left out
+  devices [--json]               list the Vulkan devices and what each lacks
+  bench [--json] [--scene FILE] [--device INDEX|NAME]
+                                 measure rays, sort, gather and memory rates
+
+Counts may be written as 200000 or 2e5.
+
+Exit codes:
+  0    done
+  1    the environment failed: no device, disk full, out of memory
+  2    the command line or an input file is wrong
+  130  interrupted (Ctrl-C or SIGTERM); everything rendered so far is saved)";
+
+/// Refuses --map and --show with an integrator that shows no photon map.
+void requirePhotonMap(const Options& options, uint integrator) {
+    if (integrator == INTEGRATOR_PHOTON_MAP) return;
+    for (const auto& [name, given] : {std::pair("--map", options.showCaustic), std::pair("--show", options.showPoints)})
+        if (given)
+            throw InputError(fmt::format("{}: found with --integrator {}; allowed: only with --integrator photon-map",
+                                         name, wordOf(INTEGRATORS, integrator)));
+}
+
+void requireRender(Options& options) {
+    if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm --scene FILE");
+    if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
+    if (options.stats && options.stats->lexically_normal() == options.output.lexically_normal())
+        refuse("--stats", options.stats->string(), "a file other than that of --output");
+    if (options.integrator) requirePhotonMap(options, *options.integrator);
+}
+
+Options parseRender(std::span<const std::string> arguments) {
+    Options options;
+    Parser parser("vkpm, a photon mapping renderer in Vulkan compute.", "vkpm [render] --scene FILE [options]");
+    const Settings defaults;
+    addFiles(parser, options);
+    addImage(parser, options, defaults);
+    addPhotons(parser, options, defaults);
+    parser.group("Machine");
+    addDevice(parser, options);
+    parser.flag("--quiet", "no progress on stderr", options.quiet);
+    parser.footer(COMMANDS);
+    options.text = parser.parse(arguments);
+    if (!options.text.empty()) return options;
+    requireRender(options);
+    options.command = Command::Render;
+    return options;
+}
+
+Options parseDevices(std::span<const std::string> arguments) {
+    Options options;
+    Parser parser("List the Vulkan devices and what each lacks.", "vkpm devices [--json]");
+    parser.flag("--json", "as JSON", options.json);
+    options.text = parser.parse(arguments);
+    if (options.text.empty()) options.command = Command::Devices;
+    return options;
+}
+
+Options parseBench(std::span<const std::string> arguments) {
+    Options options;
+    Parser parser("Measure rays, sort, gather and memory rates.", "vkpm bench [options]");
+    parser.flag("--json", "as JSON", options.json);
+    parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)",
+               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    addDevice(parser, options);
+    options.text = parser.parse(arguments);
+    if (options.text.empty()) options.command = Command::Bench;
+    return options;
+}
+
+} // namespace
+
+Settings Options::override(Settings settings) const {
+    const auto set = [](auto& target, const auto& value) { if (value) target = *value; };
+    set(settings.size, size);
+    set(settings.integrator, integrator);
+    set(settings.showCaustic, showCaustic);
+    set(settings.showPoints, showPoints);
+    set(settings.passes, passes);
+    set(settings.photons, photons);
+    set(settings.causticPhotons, causticPhotons);
+    set(settings.radius, radius);
+    set(settings.causticRadius, causticRadius);
+    set(settings.nearest, nearest);
+    set(settings.kernel, kernel);
+    set(settings.schlick, schlick);
+    set(settings.seed, seed);
+    requirePhotonMap(*this, settings.integrator);
+    return settings;
+}
+
+Options parseOptions(int count, const char* const* arguments) {
+    std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
+    if (words.empty()) words.push_back("--help");
+    const std::span<const std::string> all(words);
+    if (all[0].starts_with('-')) return parseRender(all);
+    if (all[0] == "render") return parseRender(all.subspan(1));
+    if (all[0] == "devices") return parseDevices(all.subspan(1));
+    if (all[0] == "bench") return parseBench(all.subspan(1));
+    const bool isFile = fs::path(all[0]).has_extension();
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, devices, bench{}", all[0],
+                                 isFile ? "; a scene is given as --scene " + all[0]
+                                        : suggestion(all[0], {"render", "devices", "bench"})));
+}
+
+} // namespace vkpm

@@ -1,0 +1,46 @@
+/// The command line.
+#pragma once
+#include "scene/settings.h"
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace vkpm {
+
+enum class Command { Print, Render, Devices, Bench };
+
+/// What the command line asks for; what it leaves open is absent.
+struct Options {
+    Command command = Command::Print;
+    std::string text;             // Print: the help or the version, for stdout
+    std::filesystem::path scene;  // bench: empty for its own scene
+    std::filesystem::path output; // render: always set, ends in .exr
+    std::optional<std::filesystem::path> stats;
+    std::string device; // index or part of the name; empty: vkpm chooses
+    bool json = false;
+    bool quiet = false;
+
+    std::optional<uvec2> size;
+    std::optional<uint> integrator;
+    std::optional<bool> showCaustic;
+    std::optional<bool> showPoints;
+    std::optional<uint> passes;
+    std::optional<uint> photons;
+    std::optional<uint> causticPhotons;
+    std::optional<float> radius;
+    std::optional<float> causticRadius;
+    std::optional<uint> nearest;
+    std::optional<uint> kernel;
+    std::optional<bool> schlick;
+    std::optional<uint> seed;
+
+    /// A scene's settings with the command line's over them. Throws InputError if --map or --show meets an
+    /// integrator other than photon-map.
+    Settings override(Settings sceneSettings) const;
+};
+
+/// Reads the command line; main's arguments, the program's name first. Throws InputError with the option, what was
+/// found and what is allowed.
+Options parseOptions(int count, const char* const* arguments);
+
+} // namespace vkpm

@@ -1,0 +1,130 @@
+/// Files that are replaced as a whole: written beside the old one, flushed, then renamed over it.
+#include "output/atomic_file.h"
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <unistd.h>
+#include <utility>
+
+namespace vkpm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* whatHelps(int error) {
+    switch (error) {
+    case ENOSPC:
+    case EDQUOT: return "; free some space, or choose another folder";
+    case EFBIG: return "; raise the limit on the size of files (ulimit -f)";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "; choose a folder that you may write to";
+    case ENOENT:
+    case ENOTDIR: return "; create the folder first, or choose another one";
+    case EISDIR: return "; choose a name that is not a folder's";
+    case EMFILE:
+    case ENFILE: return "; raise the limit on open files (ulimit -n)";
+    default: return "";
+    }
+}
+
+[[noreturn]] void fail(const fs::path& path, const char* call, int error) {
+    throw std::runtime_error(fmt::format("{}: {}: {}{}", path.string(), call, std::strerror(error), whatHelps(error)));
+}
+
+/// A file open for writing; removed again at the end of its life unless it was renamed or is a device.
+class Output {
+public:
+    Output(fs::path written, fs::path reported, int flags, bool temporary)
+        : path(std::move(written)), shown(std::move(reported)), removed(temporary) {
+        descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+        if (descriptor < 0) fail(shown, "open", errno);
+    }
+    ~Output() {
+        if (descriptor >= 0) ::close(descriptor);
+        if (removed) ::unlink(path.c_str());
+    }
+    Output(const Output&) = delete;
+    Output& operator=(const Output&) = delete;
+
+    void write(std::span<const char> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+            if (written < 0 && errno != EINTR) fail(shown, "write", errno);
+            if (written > 0) bytes = bytes.subspan(static_cast<size_t>(written));
+        }
+    }
+
+    void flush() {
+        // Some file systems cannot flush; that alone is no reason to lose a picture.
+        if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) fail(shown, "fsync", errno);
+    }
+
+    void close() {
+        const int result = ::close(std::exchange(descriptor, -1));
+        if (result != 0 && errno != EINTR) fail(shown, "close", errno);
+    }
+
+    void renameTo(const fs::path& target) {
+        if (::rename(path.c_str(), target.c_str()) != 0) fail(shown, "rename", errno);
+        removed = false;
+    }
+
+private:
+    fs::path path;
+    fs::path shown;
+    bool removed;
+    int descriptor = -1;
+};
+
+/// The file that a name stands for: symbolic links stay links, and what they point to is replaced.
+fs::path resolve(const fs::path& path) {
+    std::error_code error;
+    const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
+    return target.empty() ? path : target;
+}
+
+/// The temporary file of a target, in the same folder, named so that two processes do not share it.
+Output openBeside(const fs::path& target, const fs::path& shown) {
+    fs::path part = target;
+    part += fmt::format(".{}.part", ::getpid());
+    return {part, shown, O_CREAT | O_TRUNC | O_NOFOLLOW, true};
+}
+
+/// Whether the name is that of something that cannot be replaced by a file, such as /dev/stdout.
+bool isDevice(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) fail(path, "open", EISDIR);
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// Makes a rename survive a power failure; some file systems cannot, and the file is whole either way.
+void flushFolder(const fs::path& target) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+} // namespace
+
+void replaceFile(const fs::path& path, std::span<const char> bytes) {
+    if (isDevice(path)) return Output(path, path, 0, false).write(bytes);
+    const fs::path target = resolve(path);
+    Output output = openBeside(target, path);
+    output.write(bytes);
+    output.flush();
+    output.close();
+    output.renameTo(target);
+    flushFolder(target);
+}
+
+void requireWritable(const fs::path& path) {
+    if (!isDevice(path)) openBeside(resolve(path), path);
+}
+
+} // namespace vkpm

@@ -1,0 +1,13 @@
+/// Display pixels in PNG files.
+#pragma once
+#include "shared.h"
+#include <filesystem>
+#include <span>
+
+namespace vkpm {
+
+/// Writes 8-bit sRGB pixels, row by row from the top, red in the lowest byte; the fourth byte is left out.
+/// The file is replaced as a whole. Throws std::runtime_error with file and cause.
+void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8);
+
+} // namespace vkpm

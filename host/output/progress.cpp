@@ -1,0 +1,113 @@
+/// How far a render is: one line redrawn on a terminal, a line now and then elsewhere.
+#include "output/progress.h"
+#include "output/interrupt.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace vkpm {
+namespace {
+
+constexpr double REDRAW_SECONDS = 0.1;
+constexpr double LOG_SECONDS = 30;
+constexpr size_t BAR_WIDTH = 30;
+
+/// 0:07, 12:34 or 1:02:03.
+std::string clockText(double seconds) {
+    const auto s = static_cast<std::uint64_t>(std::clamp(seconds, 0.0, 1e12) + 0.5);
+    if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
+    return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+/// Rays per second with a prefix, three digits.
+std::string rateText(double rate) {
+    for (const char* unit : {"", "k", "M", "G"}) {
+        if (rate < 999.5) return fmt::format("{:.3g} {}rays/s", rate, unit);
+        rate /= 1000;
+    }
+    return fmt::format("{:.3g} Trays/s", rate);
+}
+
+size_t terminalColumns(std::FILE* file) {
+    winsize size{};
+    return ::ioctl(::fileno(file), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+}
+
+} // namespace
+
+std::string progressLine(uint finished, uint passes, double seconds, std::uint64_t rays, size_t columns, bool bar) {
+    const double left = finished > 0 ? seconds / finished * (passes - finished) : 0;
+    std::string line = fmt::format("pass {}/{}  {} %  {} elapsed", finished, passes,
+                                   std::uint64_t(100) * finished / passes, clockText(seconds));
+    if (finished > 0 && finished < passes) line += fmt::format("  {} left", clockText(left));
+    if (rays > 0 && seconds > 0) line += "  " + rateText(static_cast<double>(rays) / seconds);
+    if (bar && line.size() + BAR_WIDTH + 4 <= columns) {
+        const size_t full = BAR_WIDTH * std::uint64_t(finished) / passes;
+        line = fmt::format("[{:<{}}]  {}", std::string(full, '='), BAR_WIDTH, line);
+    }
+    return line.substr(0, columns);
+}
+
+Progress::Progress(uint count, bool quiet, std::FILE* out)
+    : passes(std::max(count, 1u)), file(quiet ? nullptr : out), terminal(::isatty(::fileno(out)) == 1) {
+    if (file && terminal) draw(0);
+}
+
+Progress::~Progress() {
+    if (!file) return;
+    if (terminal) {
+        drawn = interrupted() ? 0 : drawn;
+        draw(lastSeconds);
+        std::fputc('\n', file);
+    } else if (shown != finished) {
+        log(lastSeconds);
+    }
+    std::fflush(file);
+}
+
+void Progress::update(uint done, std::uint64_t count) {
+    update(done, count, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void Progress::update(uint done, std::uint64_t count, double seconds) {
+    finished = std::min(done, passes);
+    rays = count;
+    lastSeconds = seconds;
+    if (!file || interrupted() || !due(seconds)) return;
+    if (terminal) {
+        draw(seconds);
+        interval = REDRAW_SECONDS;
+    } else {
+        log(seconds);
+        interval = std::clamp(2 * interval, 1.0, LOG_SECONDS);
+    }
+    reported = seconds;
+}
+
+/// Whether it is time for a report: at the first and last pass, and, off a terminal, if the next update would
+/// come too late.
+bool Progress::due(double seconds) const {
+    if (finished == passes) return shown != finished;
+    if (finished == 0) return terminal && seconds - reported >= REDRAW_SECONDS;
+    const double pass = terminal ? 0 : seconds / finished;
+    return shown == 0 || seconds - reported + pass > interval;
+}
+
+/// Writes over the line, blanks over what remains of a longer one.
+void Progress::draw(double seconds) {
+    const size_t columns = terminalColumns(file);
+    const std::string line = progressLine(finished, passes, seconds, rays, columns, true);
+    fmt::print(file, "\r{:<{}}", line, std::min(drawn, columns));
+    std::fflush(file);
+    drawn = line.size();
+    shown = finished;
+}
+
+void Progress::log(double seconds) {
+    fmt::print(file, "{}\n", progressLine(finished, passes, seconds, rays, 200, false));
+    std::fflush(file);
+    shown = finished;
+}
+
+} // namespace vkpm

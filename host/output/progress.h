@@ -1,0 +1,47 @@
+/// How far a render is: one line redrawn on a terminal, a line now and then elsewhere.
+#pragma once
+#include "shared.h"
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace vkpm {
+
+/// Passes done, percent, time elapsed and left, and rays per second, in at most `columns` characters; a bar if
+/// there is room for one and `bar` is set. Time left comes from the mean of the finished passes.
+std::string progressLine(uint finished, uint passes, double seconds, std::uint64_t rays, size_t columns, bool bar);
+
+/// Reports to `file` (stderr); ends its line when destroyed, and writes nothing between an interrupt and that.
+class Progress {
+public:
+    Progress(uint passes, bool quiet, std::FILE* file = stderr);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// `finished` passes are done, with `rays` in all of them.
+    void update(uint finished, std::uint64_t rays);
+
+    /// The same at a given time since the beginning, in seconds.
+    void update(uint finished, std::uint64_t rays, double seconds);
+
+private:
+    void draw(double seconds);
+    void log(double seconds);
+    bool due(double seconds) const;
+
+    uint passes;
+    std::FILE* file; // null if silent
+    bool terminal;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    uint finished = 0;
+    std::uint64_t rays = 0;
+    uint shown = 0;          // passes finished at the last report
+    double lastSeconds = 0;  // of the last update
+    double reported = 0;     // time of the last report
+    double interval = 0;     // least time between reports
+    size_t drawn = 0;        // characters on the line
+};
+
+} // namespace vkpm

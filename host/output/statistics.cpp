@@ -1,0 +1,58 @@
+/// What a render did and what it took, as one JSON object.
+#include "output/statistics.h"
+#include "output/atomic_file.h"
+#include <nlohmann/json.hpp>
+
+namespace vkpm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An object of names and the sums of their values, in the order of first occurrence.
+template <class Value> Json sums(const std::vector<std::pair<std::string, Value>>& entries) {
+    Json object = Json::object();
+    for (const auto& [name, value] : entries) object[name] = object.value(name, Value{}) + value;
+    return object;
+}
+
+Json photonsJson(const PhotonCounts& counts) {
+    return {{"emitted", counts.emitted},
+            {"stored", counts.stored},
+            {"absorbed", counts.absorbed},
+            {"escaped", counts.escaped},
+            {"lost", counts.lost}};
+}
+
+Json featuresJson(const Features& features) {
+    Json object = Json::object();
+#define X(id, name, value) object[#name] = features.name;
+    FEATURES(X)
+#undef X
+    return object;
+}
+
+} // namespace
+
+std::string statisticsJson(const Statistics& statistics) {
+    Json object;
+    object["device"] = statistics.device;
+    object["seed"] = statistics.seed;
+    object["passes"] = statistics.passes;
+    object["seconds"] = {{"total", statistics.totalSeconds},
+                         {"setup", statistics.setupSeconds},
+                         {"render", statistics.renderSeconds}};
+    object["stages"] = sums(statistics.stages);
+    object["rays"] = statistics.rays;
+    object["photons"] = {{"global", photonsJson(statistics.global)}, {"caustic", photonsJson(statistics.caustic)}};
+    object["memory"] = {{"device_bytes", statistics.deviceBytes}, {"buffers", sums(statistics.buffers)}};
+    object["features"] = featuresJson(statistics.features);
+    object["left_out"] = statistics.leftOut;
+    object["nonfinite"] = statistics.nonfinite;
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeStatistics(const std::filesystem::path& path, const Statistics& statistics) {
+    replaceFile(path, statisticsJson(statistics));
+}
+
+} // namespace vkpm

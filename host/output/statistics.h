@@ -1,0 +1,45 @@
+/// What a render did and what it took, as one JSON object.
+#pragma once
+#include "shared.h"
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vkpm {
+
+/// What became of the photons of one map over all passes; lost ones ran out of bounces or were not finite.
+struct PhotonCounts {
+    std::uint64_t emitted = 0;
+    std::uint64_t stored = 0;
+    std::uint64_t absorbed = 0;
+    std::uint64_t escaped = 0;
+    std::uint64_t lost = 0;
+};
+
+struct Statistics {
+    std::string device;
+    uint seed = 0;
+    uint passes = 0;
+    double totalSeconds = 0;  // wall clock of the program
+    double setupSeconds = 0;  // until the first pass
+    double renderSeconds = 0; // all passes
+    std::vector<std::pair<std::string, double>> stages; // seconds; a name that occurs twice is summed
+    std::uint64_t rays = 0;                             // of every kind, over all passes
+    PhotonCounts global;
+    PhotonCounts caustic;
+    std::uint64_t deviceBytes = 0;
+    std::vector<std::pair<std::string, std::uint64_t>> buffers; // bytes; a name that occurs twice is summed
+    Features features;
+    std::vector<std::string> leftOut; // stages that this scene does not need
+    std::uint64_t nonfinite = 0;      // samples kept from the film
+};
+
+/// The text of the JSON object.
+std::string statisticsJson(const Statistics& statistics);
+
+/// Writes it, replacing the file as a whole. Throws std::runtime_error with file and cause.
+void writeStatistics(const std::filesystem::path& path, const Statistics& statistics);
+
+} // namespace vkpm

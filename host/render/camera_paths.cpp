@@ -1,0 +1,58 @@
+/// The camera loop: eye, then trace, shade, shadow and gather until no path is under way.
+#include "render/camera_paths.h"
+#include <algorithm>
+#include <cmath>
+
+namespace vkpm {
+
+const uint maxPathsAtOnce = 1u << 16; // small enough that the state of the paths stays in a CPU's cache
+const uint maxBounces = 10'000;
+
+// A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
+const float nearRadii = 3;
+
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, bool causticMap)
+    : gpu(device), scene(uploaded), settings(set), hasCausticMap(causticMap), size(std::min(set.size.x * set.size.y, maxPathsAtOnce)),
+      compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
+      shadowRays(gpu, "camera shadow rays", size), queries(gpu, "camera queries", size), eye(gpu, "eye", features),
+      traceKernel(gpu, "trace", features), shade(gpu, "shade", features), shadow(gpu, "shadow", features),
+      gather(gpu, set.showPoints ? "points" : "gather", features) {
+    samples = Buffer<Sample>(gpu, "camera samples", size);
+    const Camera camera = scene.address.read1().camera;
+    pixelAngle = 2 * glm::length(camera.up) / float(settings.size.y);
+}
+
+void CameraPaths::bounce(Recording& recording, uint pass, uint first, uint index, const PhotonMaps& maps) {
+    const Buffer<Queue>& queues = compaction.queues;
+    recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
+    recording.run(shade, queues, QUEUE_CONTINUE,
+                  {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, first, pass,
+                   settings.seed, index, hasCausticMap, nearRadii * maps.global.radius, pixelAngle});
+    compaction.compact(recording);
+
+    const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
+    recording.run(shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list});
+    if (maps.caustic.cells.address)
+        recording.run(gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, settings.nearest});
+    if (maps.global.cells.address)
+        recording.run(gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, settings.nearest});
+}
+
+RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
+    Recording recording(gpu);
+    compaction.start(count);
+    recording.run(eye, count,
+                  {scene.address, paths, samples, compaction.list, settings.size, first, count, pass, settings.seed, settings.showPoints});
+
+    // Batches of bounces, until the device says that no path is left.
+    std::vector<Queue> queues;
+    for (uint index = 0, batch = 4; index < maxBounces; batch = std::min(2 * batch, 64u)) {
+        for (uint end = std::min(index + batch, maxBounces); index < end; index++) bounce(recording, pass, first, index, maps);
+        recording.submit();
+        queues = compaction.queues.download();
+        if (queues[QUEUE_CONTINUE].count == 0) break;
+    }
+    return {queues[QUEUE_CONTINUE].base, std::uint64_t(queues[QUEUE_SHADOW].base) + queues[QUEUE_SHADOW].count};
+}
+
+} // namespace vkpm

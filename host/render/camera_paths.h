@@ -1,0 +1,52 @@
+/// The camera pass: a wavefront of eye paths, their shadow rays and their questions to the photon maps.
+#pragma once
+#include "render/compaction.h"
+#include "render/device_scene.h"
+
+namespace vkpm {
+
+/// The photon maps of a pass; one that the scene does not need has no cells.
+struct PhotonMaps {
+    PhotonMap global{};
+    PhotonMap caustic{};
+};
+
+struct RayCounts {
+    std::uint64_t paths = 0; // eye and gather rays
+    std::uint64_t shadow = 0;
+};
+
+/// Traces one path per pixel for a range of pixels at a time.
+class CameraPaths {
+public:
+    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, bool hasCausticMap);
+
+    /// Pixels that one call of trace() may take.
+    uint capacity() const { return size; }
+    /// Fills `samples` for the pixels from `first` on.
+    RayCounts trace(uint pass, uint first, uint count, const PhotonMaps& maps);
+
+    Buffer<Sample> samples;
+
+private:
+    void bounce(Recording& recording, uint pass, uint first, uint bounce, const PhotonMaps& maps);
+
+    Gpu& gpu;
+    const UploadedScene& scene;
+    Settings settings;
+    bool hasCausticMap;
+    uint size;
+    float pixelAngle;
+    Compaction compaction;
+    Buffer<Path> paths;
+    Buffer<Hit> hits;
+    Buffer<ShadowRay> shadowRays;
+    Buffer<Query> queries;
+    Kernel<EyeArgs> eye;
+    Kernel<TraceArgs> traceKernel;
+    Kernel<ShadeArgs> shade;
+    Kernel<ShadowArgs> shadow;
+    Kernel<GatherArgs> gather;
+};
+
+} // namespace vkpm

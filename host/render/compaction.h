@@ -1,0 +1,33 @@
+/// Sorting paths into queues: which of them go on, and what else they ask for.
+#pragma once
+#include "gpu/recording.h"
+
+namespace vkpm {
+
+/// Queues of paths and the lists they point into. Paths are flagged by a kernel; compact() makes a list of each kind of
+/// flag, in the order of the paths, by prefix sums, so that nothing depends on scheduling.
+class Compaction {
+public:
+    /// For up to `capacity` paths and `kinds` kinds of flags; `name` goes before the names of the buffers.
+    Compaction(Gpu& gpu, const std::string& name, uint capacity, uint kinds);
+
+    /// The first queue holds all places of `list` from 0 to count - 1, the others nothing.
+    void start(uint count);
+    /// Records the compaction of the first queue's flags; `list` becomes the new list.
+    void compact(Recording& recording);
+
+    Buffer<Queue> queues; // one per kind
+    Buffer<uint> list;    // of paths, queue after queue
+    Buffer<uint> flags;   // by place in the first queue
+
+private:
+    uint kinds;
+    Buffer<uint> nextList;
+    Buffer<uint> sums;
+    Kernel<TallyArgs> tally;
+    Kernel<ScanArgs> scan;
+    Kernel<CompactArgs> scatter;
+    Kernel<EnqueueArgs> enqueue;
+};
+
+} // namespace vkpm

@@ -1,0 +1,30 @@
+/// Upload of a scene.
+#include "render/device_scene.h"
+
+namespace vkpm {
+
+template <class T> static Buffer<T> uploaded(Gpu& gpu, const char* name, const std::vector<T>& data) {
+    return Buffer<T>(gpu, name, std::span<const T>(data));
+}
+
+UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, uvec2 size)
+    : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
+      primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
+      materials(uploaded(gpu, "scene materials", scene.materials)), lights(uploaded(gpu, "scene lights", scene.lights)),
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)) {
+    const DeviceScene device{.nodes = nodes,
+                             .leaves = leaves,
+                             .primitives = primitives,
+                             .normals = normals,
+                             .materials = materials,
+                             .lights = lights,
+                             .lightCdf = lightCdf,
+                             .targets = targets,
+                             .triangleCount = scene.triangleCount,
+                             .lightCount = static_cast<uint>(scene.lights.size()),
+                             .targetCount = static_cast<uint>(scene.targets.size()),
+                             .camera = pinholeCamera(scene.view, size)};
+    address = Buffer<DeviceScene>(gpu, "scene", std::span(&device, 1));
+}
+
+} // namespace vkpm

@@ -1,0 +1,27 @@
+/// A scene on the device.
+#pragma once
+#include "gpu/buffer.h"
+#include "scene/scene.h"
+
+namespace vkpm {
+
+/// Uploads the arrays of a scene once; kernels read them through `address`.
+class UploadedScene {
+public:
+    /// The camera is that of the scene's view for a film of `size` pixels.
+    UploadedScene(Gpu& gpu, const Scene& scene, uvec2 size);
+
+    Buffer<DeviceScene> address;
+
+private:
+    Buffer<Node> nodes;
+    Buffer<Leaf> leaves;
+    Buffer<Primitive> primitives;
+    Buffer<Normals> normals;
+    Buffer<Material> materials;
+    Buffer<Light> lights;
+    Buffer<float> lightCdf;
+    Buffer<Target> targets;
+};
+
+} // namespace vkpm

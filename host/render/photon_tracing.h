@@ -1,0 +1,55 @@
+/// Photons from the lights to the diffuse surfaces where they arrive.
+#pragma once
+#include "render/compaction.h"
+#include "render/device_scene.h"
+
+namespace vkpm {
+
+/// What became of the photons of one or more passes. Every photon emitted is absorbed, escapes, or is lost to the limit
+/// of bounces; of the caustic map, one that misses what it was aimed at escapes.
+struct PhotonLedger {
+    std::uint64_t emitted = 0;
+    std::uint64_t stored = 0;
+    std::uint64_t absorbed = 0;
+    std::uint64_t escaped = 0;
+    std::uint64_t lost = 0;
+    std::uint64_t rays = 0;
+    std::uint64_t nonfinite = 0;
+
+    PhotonLedger& operator+=(const PhotonLedger& other);
+};
+
+enum class MapKind : uint { global = 0, caustic = 1 };
+
+/// Emits `count` photons per pass and keeps where they arrive, in an order fixed by their indices.
+class PhotonTracing {
+public:
+    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed);
+
+    /// Fills `photons` with ledger.stored photons of a pass.
+    PhotonLedger trace(uint pass);
+
+    Buffer<Photon> photons;
+
+private:
+    PhotonLedger attempt(uint pass);
+    void bounce(Recording& recording, uint pass, uint bounce);
+
+    Gpu& gpu;
+    const UploadedScene& scene;
+    MapKind kind;
+    uint count;
+    uint seed;
+    std::string name;
+    Compaction compaction;
+    Buffer<Path> paths;
+    Buffer<Hit> hits;
+    Buffer<Photon> pending;
+    Buffer<Status> status;
+    Kernel<EmitArgs> emit;
+    Kernel<TraceArgs> traceKernel;
+    Kernel<ScatterArgs> scatter;
+    Kernel<DepositArgs> deposit;
+};
+
+} // namespace vkpm

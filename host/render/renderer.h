@@ -1,0 +1,55 @@
+/// The renderer: decides which stages a scene needs and what runs when.
+#pragma once
+#include "render/camera_paths.h"
+#include "render/film.h"
+#include "render/photon_grid.h"
+#include "render/photon_tracing.h"
+#include <optional>
+
+namespace vkpm {
+
+/// A photon map that is made anew for each pass.
+struct MapStages {
+    PhotonTracing tracing;
+    PhotonGrid grid;
+    PhotonLedger ledger{};
+    PhotonMap map{};
+};
+
+/// Renders a scene pass by pass; pass i is a pure function of (scene, settings, i).
+class Renderer {
+public:
+    /// `settings` with every radius chosen (see radius.h).
+    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings);
+
+    void renderPass();
+
+    uint passes() const { return passesDone; }
+    RayCounts rays() const { return cameraRays; }
+    const Features& features() const { return sceneHas; }
+    /// Stages that this scene does not need, each with the reason.
+    const std::vector<std::string>& leftOut() const { return absent; }
+    const std::optional<MapStages>& globalMap() const { return global; }
+    const std::optional<MapStages>& causticMap() const { return caustic; }
+
+private:
+    void buildMap(std::optional<MapStages>& stages, uint photons, float radius);
+
+    Gpu& gpu;
+    Settings settings;
+    Features sceneHas;
+    UploadedScene scene;
+    float flux; // luminance of the lights' flux, W
+    std::vector<std::string> absent;
+    std::optional<MapStages> global;
+    std::optional<MapStages> caustic;
+    CameraPaths camera;
+    uint passesDone = 0;
+    RayCounts cameraRays;
+
+public:
+    Film film;
+};
+
+
+} // namespace vkpm

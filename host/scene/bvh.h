@@ -1,0 +1,21 @@
+/// Bounding volume hierarchies of triangles and spheres, built by Embree and laid out for the kernels.
+#pragma once
+#include "shared.h"
+#include <span>
+#include <vector>
+
+namespace vkpm {
+
+struct Bvh {
+    std::vector<Node> nodes; // depth first, node 0 is the root
+    std::vector<Leaf> leaves;
+    /// Entries of the stack at most, at least 1, if a traversal pushes the farther child and descends into the nearer.
+    uint stackSize = 1;
+};
+
+/// The hierarchy of `primitives`, of which the first `triangleCount` are triangles and the others spheres (centre a,
+/// radius b.x), at least one; spatial splits (Stich et al. 2009) may put a primitive into several leaves. The same
+/// input gives the same hierarchy. Throws InputError if boxes overflow, std::runtime_error if Embree fails.
+Bvh buildBvh(std::span<const Primitive> primitives, uint triangleCount);
+
+} // namespace vkpm

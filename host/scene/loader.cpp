@@ -1,0 +1,152 @@
+/// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
+#include "scene/bvh.h"
+#include "scene/lights.h"
+#include "scene/reader.h"
+#include "scene/scene.h"
+#include "scene/shapes.h"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace vkpm {
+using glm::dvec3;
+
+namespace {
+
+constexpr std::size_t manyShapes = 10'000'000;
+
+View readView(Reader camera) {
+    View view;
+    view.origin = camera.at("origin").vector();
+    const Reader targetReader = camera.at("target");
+    view.target = targetReader.vector();
+    const auto up = camera.find("up");
+    if (up) view.up = up->vector();
+    if (const auto degrees = camera.find("fieldOfView")) view.fieldOfView = glm::radians(degrees->number({0, 179, true}));
+    camera.finish();
+
+    if (view.target == view.origin) targetReader.fail("the target is the origin", "let the camera look somewhere else");
+    const dvec3 forward = glm::normalize(dvec3{view.target} - dvec3{view.origin});
+    const double upLength = glm::length(dvec3{view.up});
+    if (!(glm::length(glm::cross(forward, dvec3{view.up})) > 1e-6 * upLength))
+        (up ? *up : targetReader).fail("up has length 0 or points along the view", "give an \"up\" that leans away from it");
+    return view;
+}
+
+void readFilm(Reader film, Settings& settings) {
+    if (const auto size = film.find("size")) {
+        const std::vector<Reader> sides = size->elements(2, 2, "an array of 2 integers, [width, height]");
+        settings.size = {sides[0].integer(1, 65536), sides[1].integer(1, 65536)};
+        if (std::uint64_t{settings.size.x} * settings.size.y > (1u << 28u))
+            size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y), "allowed are 2^28 in all");
+    }
+    if (const auto exposure = film.find("exposure")) settings.exposure = exposure->number({-100, 100});
+    film.finish();
+}
+
+void readSettings(Reader reader, Settings& settings) {
+    constexpr uint many = 100'000'000;
+    if (const auto passes = reader.find("passes")) settings.passes = passes->integer(1, 1'000'000);
+    if (const auto photons = reader.find("photons")) settings.photons = photons->integer(1, many);
+    if (const auto photons = reader.find("causticPhotons")) settings.causticPhotons = photons->integer(1, many);
+    if (const auto radius = reader.find("radius")) settings.radius = radius->number(positive);
+    if (const auto radius = reader.find("causticRadius")) settings.causticRadius = radius->number(positive);
+    if (const auto nearest = reader.find("nearest")) settings.nearest = nearest->integer(0, 1'000'000);
+    if (const auto kernel = reader.find("kernel"))
+        settings.kernel = static_cast<uint>(kernel->choice({"constant", "cone", "gauss", "epanechnikov"}));
+    if (const auto fresnel = reader.find("fresnel")) settings.schlick = fresnel->choice({"exact", "schlick"}) == 1;
+    if (const auto seed = reader.find("seed")) settings.seed = seed->integer(0, std::numeric_limits<uint>::max());
+    reader.finish();
+}
+static_assert(KERNEL_CONSTANT == 0 && KERNEL_CONE == 1 && KERNEL_GAUSS == 2 && KERNEL_EPANECHNIKOV == 3);
+
+/// Index inside over index outside.
+float readIor(Reader& glass) {
+    const Reader iorReader = glass.at("ior");
+    const float inside = iorReader.number(positive);
+    const auto exterior = glass.find("exteriorIor");
+    const float ratio = inside / (exterior ? exterior->number(positive) : 1.0f);
+    if (!(ratio >= 1e-3f && ratio <= 1e3f))
+        iorReader.fail(fmt::format("found {} times the index outside", ratio), "allowed is a ratio from 0.001 to 1000");
+    return ratio;
+}
+
+Material readMaterial(Reader reader) {
+    Material material{MATERIAL_DIFFUSE, vec3{1}, 1};
+    material.kind = static_cast<uint>(reader.at("type").choice({"diffuse", "mirror", "glass"}));
+    if (material.kind == MATERIAL_DIFFUSE) material.color = reader.at("albedo").color(fraction);
+    if (material.kind == MATERIAL_MIRROR) material.color = reader.at("reflectance").color(fraction);
+    if (material.kind == MATERIAL_GLASS) {
+        material.ior = readIor(reader);
+        if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
+    }
+    reader.finish();
+    return material;
+}
+static_assert(MATERIAL_DIFFUSE == 0 && MATERIAL_MIRROR == 1 && MATERIAL_GLASS == 2);
+
+std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
+    std::map<std::string, uint> indices;
+    for (const std::string& name : reader.keys()) {
+        indices[name] = static_cast<uint>(scene.materials.size());
+        scene.materials.push_back(readMaterial(reader.at(name)));
+    }
+    return indices;
+}
+
+/// Areas and squared distances must not leave the range of float on the device.
+void checkExtent(const Scene& scene, const std::string& file) {
+    const dvec3 sides = dvec3{scene.bounds.high} - dvec3{scene.bounds.low};
+    const double extent = std::max({sides.x, sides.y, sides.z});
+    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
+    if (!(extent >= 1e-9 && std::max({reach.x, reach.y, reach.z}) <= 1e12f))
+        throw InputError(fmt::format("{}: /shapes: the shapes extend over {:.3g} and reach as far as {:.3g} from the "
+                                     "world's origin; allowed are at least 1e-9 and at most 1e12",
+                                     file, extent, std::max({reach.x, reach.y, reach.z})));
+}
+
+void readScene(Reader root, Scene& scene) {
+    if (const auto about = root.find("about")) (void)about->text();
+    if (const auto schema = root.find("$schema")) (void)schema->text();
+    const Reader camera = root.at("camera");
+    const auto film = root.find("film");
+    const auto settings = root.find("settings");
+    const auto materials = root.find("materials");
+    const Reader shapes = root.at("shapes");
+    root.finish();
+
+    scene.view = readView(camera);
+    if (film) readFilm(*film, scene.settings);
+    if (settings) readSettings(*settings, scene.settings);
+    std::map<std::string, uint> indices;
+    if (materials) indices = readMaterials(*materials, scene);
+
+    ShapeLoader loader{scene, indices};
+    for (const Reader& shape : shapes.elements(1, manyShapes, "an array of shapes, at least one")) loader.add(shape);
+    loader.finish();
+}
+
+} // namespace
+
+Scene loadScene(const std::filesystem::path& file) {
+    const std::string problem = fileProblem(file);
+    if (!problem.empty()) throw InputError(fmt::format("{}: {}; give a scene file", file.string(), problem));
+    Scene scene;
+    scene.name = file.stem().string();
+    scene.text = readText(file);
+    if (scene.text.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw InputError(fmt::format("{}:1:1: the file is empty; give a scene, {{\"camera\": ..., \"shapes\": ...}}",
+                                     file.string()));
+
+    const nlohmann::json json = parseJson(file, scene.text);
+    readScene(Reader{file, json}, scene);
+    checkExtent(scene, file.string());
+    chooseLights(scene, file.string());
+
+    Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
+    scene.nodes = std::move(bvh.nodes);
+    scene.leaves = std::move(bvh.leaves);
+    scene.stackSize = bvh.stackSize;
+    return scene;
+}
+
+} // namespace vkpm

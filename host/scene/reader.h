@@ -1,0 +1,83 @@
+/// A typed reader of JSON: a cursor that knows its file, its place and which keys were asked for.
+#pragma once
+#include "shared.h"
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpm {
+
+/// Numbers that are allowed; `low` itself is not if `aboveLow`.
+struct Range {
+    float low = std::numeric_limits<float>::lowest();
+    float high = std::numeric_limits<float>::max();
+    bool aboveLow = false;
+};
+constexpr Range anyNumber{};
+constexpr Range positive{0, std::numeric_limits<float>::max(), true};
+constexpr Range notNegative{0, std::numeric_limits<float>::max()};
+constexpr Range fraction{0, 1};
+
+/// Why a file cannot be read as text; empty if it can.
+std::string fileProblem(const std::filesystem::path& file);
+
+/// The contents of a file without byte order mark. Throws std::runtime_error if reading fails.
+std::string readText(const std::filesystem::path& file);
+
+/// The JSON value of a text. Throws InputError with file:line:column for syntax, and with a JSON pointer for repeated
+/// keys and for nesting beyond 64 levels.
+nlohmann::json parseJson(const std::filesystem::path& file, const std::string& text);
+
+/// A place in a JSON value. Every function that reads throws InputError, "file: /json/pointer: found; allowed".
+class Reader {
+  public:
+    Reader(std::filesystem::path path, const nlohmann::json& root) : file{std::move(path)}, value{&root} {}
+
+    [[noreturn]] void fail(std::string_view found, std::string_view allowed) const;
+    void warn(std::vector<std::string>& warnings, std::string_view message) const;
+
+    /// Members of an object; asking for a key makes it known.
+    Reader at(std::string_view key);
+    std::optional<Reader> find(std::string_view key);
+    std::vector<std::string> keys() const;
+    /// Fails at the first key that was never asked for.
+    void finish() const;
+
+    /// Elements of an array of `low` to `high` elements.
+    std::vector<Reader> elements(std::size_t low, std::size_t high, std::string_view allowed) const;
+
+    float number(Range range = anyNumber) const;
+    uint integer(uint low, uint high) const;
+    vec3 vector(Range range = anyNumber) const;
+    vec3 color(Range range) const; // three numbers, or one for a grey
+    bool boolean() const;
+    std::string text() const;
+    std::size_t choice(std::initializer_list<std::string_view> names) const; // index of the name found
+    bool isNumber() const { return value->is_number(); }
+
+    std::string describe() const; // the value found, in words
+    const std::filesystem::path& path() const { return file; }
+
+  private:
+    Reader child(std::string_view key, const nlohmann::json& member) const;
+    const nlohmann::json& object() const;
+    [[noreturn]] void failUnknown(std::string_view key) const;
+
+    std::filesystem::path file;
+    const nlohmann::json* value;
+    std::string pointer;
+    std::vector<std::string> known;
+};
+
+/// The candidate that is nearest to a misspelt word by edit distance; empty if none is near.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `"a", "b" or "c"`, for messages.
+std::string quotedList(const std::vector<std::string>& words);
+
+} // namespace vkpm

@@ -1,0 +1,60 @@
+/// A scene as arrays of the structs that kernels read, and the loader that fills them from a JSON file.
+#pragma once
+#include "settings.h"
+#include "shared.h"
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vkpm {
+
+/// The user's input is wrong; what() says file, place, what was found and what is allowed. Exit code 2.
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Bounds {
+    vec3 low{std::numeric_limits<float>::infinity()};
+    vec3 high{-std::numeric_limits<float>::infinity()};
+};
+
+/// Where the camera stands and looks; the field of view is vertical, in radians.
+struct View {
+    vec3 origin{0, 0, 1};
+    vec3 target{0};
+    vec3 up{0, 1, 0};
+    float fieldOfView = glm::radians(40.0f);
+};
+
+struct Scene {
+    std::string name; // the file's name without folder and extension
+    std::string text; // the scene file as read
+    std::vector<Node> nodes;
+    std::vector<Leaf> leaves;
+    std::vector<Primitive> primitives; // triangles, then spheres
+    std::vector<Normals> normals;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    std::vector<float> lightCdf;
+    std::vector<Target> targets;
+    uint triangleCount = 0;
+    uint stackSize = 0; // entries that a traversal of `nodes` needs at most
+    vec3 flux{0};       // of all lights, W
+    Bounds bounds;
+    View view;
+    Settings settings;
+    std::vector<std::string> warnings; // what was put right or looks wrong, each with its place
+};
+
+/// The scene of a JSON file; meshes are found relative to the file. Throws InputError.
+Scene loadScene(const std::filesystem::path& file);
+
+/// The pinhole camera of a view for a film of `size` pixels.
+Camera pinholeCamera(const View& view, uvec2 size);
+
+/// What the scene has, as specialization constants; settings add integrator, kernel and Fresnel.
+Features sceneFeatures(const Scene& scene, const Settings& settings);
+
+} // namespace vkpm

@@ -1,0 +1,216 @@
+/// Shapes of a scene file: spheres, rectangles and meshes.
+#include "scene/shapes.h"
+#include "scene/bounding_sphere.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+namespace vkpm {
+using glm::dvec3;
+
+namespace {
+
+Transform readTransform(Reader& shape) {
+    const auto steps = shape.find("transform");
+    return steps ? Transform{*steps} : Transform{};
+}
+
+bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Area of the parallelogram of two edges; 0 if it is so thin or small that its normal would drown in rounding.
+double soundArea(vec3 u, vec3 v) {
+    const double area = glm::length(glm::cross(dvec3{u}, dvec3{v}));
+    const double longest = std::max({glm::length(dvec3{u}), glm::length(dvec3{v}), glm::length(dvec3{v} - dvec3{u})});
+    const bool sound = area > 1e-7 * longest * longest && area / 2 >= double{std::numeric_limits<float>::min()};
+    return sound ? area : 0;
+}
+
+/// The normal of unit length, or the triangle's own where there is none.
+vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
+    const double length = glm::length(normal);
+    if (length > 0 && std::isfinite(length)) return vec3{normal / length};
+    const dvec3 a{triangle.a};
+    return vec3{glm::normalize(glm::cross(dvec3{triangle.b} - a, dvec3{triangle.c} - a))};
+}
+
+} // namespace
+
+void ShapeLoader::add(Reader shape) {
+    (void)shape.find("name");
+    switch (shape.at("type").choice({"sphere", "rectangle", "mesh"})) {
+    case 0: return addSphere(shape);
+    case 1: return addRectangle(shape);
+    default: return addMesh(shape);
+    }
+}
+
+void ShapeLoader::finish() {
+    scene.triangleCount = static_cast<uint>(scene.primitives.size());
+    scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
+}
+
+ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
+    Surface surface;
+    const auto emission = shape.find("emission");
+    if (emission) surface.radiance = emission->color(notNegative);
+    if (const auto twoSided = shape.find("twoSided")) surface.twoSided = twoSided->boolean();
+    if (const auto name = shape.find("name")) (void)name->text();
+
+    surface.material = readMaterial(shape, emission.has_value());
+    if (isSpecular(surface) && surface.radiance != vec3{0})
+        emission->fail("found emission on a mirror or glass", "only diffuse shapes may emit");
+    return surface;
+}
+
+uint ShapeLoader::readMaterial(Reader& shape, bool emits) {
+    const auto reader = shape.find("material");
+    if (!reader && emits) return blackMaterial();
+    const std::string name = reader ? reader->text() : shape.at("material").text();
+
+    const auto found = materials.find(name);
+    if (found != materials.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, index] : materials) names.push_back(known);
+    const std::string nearest = nearestWord(name, names);
+    const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
+    reader->fail(fmt::format("unknown material \"{}\"", name),
+                 names.empty() ? "the scene has no \"materials\"" : fmt::format("{}known: {}", hint, quotedList(names)));
+}
+
+uint ShapeLoader::blackMaterial() {
+    if (black == NONE) {
+        black = static_cast<uint>(scene.materials.size());
+        scene.materials.push_back({MATERIAL_DIFFUSE, vec3{0}, 1});
+    }
+    return black;
+}
+
+bool ShapeLoader::isSpecular(const Surface& surface) const {
+    return scene.materials[surface.material].kind != MATERIAL_DIFFUSE;
+}
+
+void ShapeLoader::addSphere(Reader& shape) {
+    const vec3 center = shape.at("center").vector();
+    const float radius = shape.at("radius").number(positive);
+    const Transform transform = readTransform(shape);
+    const Surface surface = readSurface(shape);
+    shape.finish();
+
+    const std::optional<double> scale = transform.uniformScale();
+    if (!scale)
+        shape.at("transform").fail("found a non-uniform scale of a sphere", "scale it uniformly, or use a mesh instead");
+    const double scaled = *scale * double{radius};
+    const vec3 a = transform.point(center);
+    const vec3 b{static_cast<float>(scaled), 0, 0};
+    if (!(b.x > 0)) shape.fail("the transform shrinks the sphere to radius 0", "let it keep a radius > 0");
+    const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
+    extendBounds(shape, a - b.x, a + b.x);
+    spheres.push_back({a, b, vec3{0}, surface.material, light, NONE});
+    if (isSpecular(surface)) scene.targets.push_back({a, b.x});
+}
+
+void ShapeLoader::addRectangle(Reader& shape) {
+    const vec3 corner = shape.at("corner").vector();
+    const Reader edgesReader = shape.at("edges");
+    const std::vector<Reader> edges = edgesReader.elements(2, 2, "an array of 2 edges, [u, v]; the normal is u x v");
+    const Transform transform = readTransform(shape);
+    vec3 u = transform.direction(edges[0].vector());
+    vec3 v = transform.direction(edges[1].vector());
+    const Surface surface = readSurface(shape);
+    shape.finish();
+
+    // A mirrored rectangle keeps its outer side when its edges change places.
+    if (transform.mirrors()) std::swap(u, v);
+    const double area = soundArea(u, v);
+    if (area == 0)
+        edgesReader.fail("the edges span no area", "give two edges that are neither of length 0 nor parallel");
+    const vec3 a = transform.point(corner);
+    const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
+    addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
+    addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
+    addTarget(surface, std::array{a, a + u, a + u + v, a + v});
+}
+
+void ShapeLoader::addMesh(Reader& shape) {
+    const Reader fileReader = shape.at("file");
+    const auto smooth = shape.find("smooth");
+    const Transform transform = readTransform(shape);
+    const Surface surface = readSurface(shape);
+    shape.finish();
+
+    Smoothness smoothness = Smoothness::fromFile;
+    if (smooth) smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
+    const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
+    if (const std::string problem = fileProblem(file); !problem.empty())
+        fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
+    const Mesh mesh = loadMesh(file, smoothness);
+
+    const std::size_t first = scene.primitives.size();
+    for (const Mesh::Triangle& triangle : mesh.triangles) addTriangle(shape, triangle, transform, surface);
+    const std::size_t added = scene.primitives.size() - first;
+    const std::size_t dropped = mesh.triangles.size() - added;
+    if (added == 0) fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
+    if (dropped > 0)
+        shape.warn(scene.warnings, fmt::format("{} of {} triangles have no area and were dropped", dropped,
+                                               mesh.triangles.size()));
+
+    std::vector<vec3> points;
+    for (std::size_t i = first; i < scene.primitives.size(); ++i)
+        for (const vec3 point : {scene.primitives[i].a, scene.primitives[i].b, scene.primitives[i].c})
+            points.push_back(point);
+    addTarget(surface, points);
+}
+
+void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
+                              const Surface& surface) {
+    std::array<vec3, 3> points = triangle.points;
+    for (vec3& point : points) point = transform.point(point);
+    std::optional<std::array<vec3, 3>> normals = triangle.normals;
+
+    // A mirrored triangle keeps its outer side when its winding is reversed.
+    if (transform.mirrors()) {
+        std::swap(points[1], points[2]);
+        if (normals) std::swap((*normals)[1], (*normals)[2]);
+    }
+    const double area = soundArea(points[1] - points[0], points[2] - points[0]) / 2;
+    if (area == 0) return;
+    Primitive primitive{points[0], points[1], points[2], surface.material, NONE, NONE};
+    primitive.light = addLight(surface, LIGHT_TRIANGLE, points[0], points[1] - points[0], points[2] - points[0], area);
+    if (normals) primitive.normals = addNormals(primitive, *normals, transform);
+    addFlat(shape, primitive);
+}
+
+void ShapeLoader::extendBounds(const Reader& shape, vec3 low, vec3 high) {
+    if (!isFinite(low) || !isFinite(high))
+        shape.fail("the shape reaches beyond the range of 32-bit floats", "make it smaller or bring it nearer");
+    scene.bounds.low = glm::min(scene.bounds.low, low);
+    scene.bounds.high = glm::max(scene.bounds.high, high);
+}
+
+void ShapeLoader::addFlat(const Reader& shape, const Primitive& triangle) {
+    const auto [a, b, c] = std::array{triangle.a, triangle.b, triangle.c};
+    extendBounds(shape, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
+    scene.primitives.push_back(triangle);
+}
+
+uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area) {
+    if (surface.radiance == vec3{0}) return NONE;
+    scene.lights.push_back(
+        {a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 0});
+    return static_cast<uint>(scene.lights.size() - 1);
+}
+
+uint ShapeLoader::addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals,
+                             const Transform& transform) {
+    scene.normals.push_back({unitNormal(transform.normal(normals[0]), primitive),
+                             unitNormal(transform.normal(normals[1]), primitive),
+                             unitNormal(transform.normal(normals[2]), primitive)});
+    return static_cast<uint>(scene.normals.size() - 1);
+}
+
+void ShapeLoader::addTarget(const Surface& surface, std::span<const vec3> points) {
+    if (isSpecular(surface)) scene.targets.push_back(boundingSphere(points));
+}
+
+} // namespace vkpm

@@ -1,0 +1,52 @@
+/// Shapes of a scene file, baked into primitives, lights and targets in world space.
+#pragma once
+#include "scene/mesh.h"
+#include "scene/reader.h"
+#include "scene/scene.h"
+#include "scene/transform.h"
+#include <map>
+#include <span>
+
+namespace vkpm {
+
+/// Fills the primitives, normals, lights and targets of a scene, shape by shape.
+class ShapeLoader {
+  public:
+    /// `indices` maps names to indices into `scene.materials`.
+    ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
+
+    /// Adds one element of "shapes". Throws InputError.
+    void add(Reader shape);
+    /// Appends the spheres, which follow all triangles.
+    void finish();
+
+  private:
+    struct Surface {
+        uint material = 0;
+        vec3 radiance{0};
+        bool twoSided = false;
+    };
+
+    Surface readSurface(Reader& shape);
+    uint readMaterial(Reader& shape, bool emits);
+    uint blackMaterial();
+    void addSphere(Reader& shape);
+    void addRectangle(Reader& shape);
+    void addMesh(Reader& shape);
+    void addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
+                     const Surface& surface);
+
+    void extendBounds(const Reader& shape, vec3 low, vec3 high);
+    void addFlat(const Reader& shape, const Primitive& triangle);
+    uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area);
+    uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
+    void addTarget(const Surface& surface, std::span<const vec3> points);
+    bool isSpecular(const Surface& surface) const;
+
+    Scene& scene;
+    const std::map<std::string, uint>& materials;
+    std::vector<Primitive> spheres;
+    uint black = NONE;
+};
+
+} // namespace vkpm

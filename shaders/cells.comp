@@ -1,0 +1,14 @@
+// Where each key starts among the sorted keys: each photon writes the starts of the keys from its predecessor's to its own.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+
+ARGS(CellsArgs)
+
+void main() {
+    uint i = threadIndex();
+    if (i > args.count) return;
+    uint first = i == 0u ? 0u : args.keys.at[i - 1u] + 1u;
+    uint last = i == args.count ? args.cellMask + 1u : args.keys.at[i];
+    for (uint key = first; key <= last; key++) args.cells.at[key] = i;
+}

@@ -1,0 +1,88 @@
+// Density estimation: irradiance at a point from the photons around it; needs grid.glsl and frame.glsl.
+
+// Weight of a photon at squared distance x2 (in units of the radius), over the mean weight of the disc.
+// Cone with k = 1.1 (Jensen 1996), Gauss with alpha = 0.918, beta = 1.953 (Pavicic 1990, as in Jensen 2001, here normalised),
+// Epanechnikov 1969.
+float densityWeight(uint kernel, float x2) {
+    if (kernel == KERNEL_CONE) return (1.0 - sqrt(x2) / 1.1) / 0.39393939;
+    if (kernel == KERNEL_GAUSS) return 0.918 * (1.0 - (1.0 - exp(-1.953 * 0.5 * x2)) / (1.0 - exp(-1.953))) / 0.5311549;
+    if (kernel == KERNEL_EPANECHNIKOV) return 2.0 * (1.0 - x2);
+    return 1.0;
+}
+
+// Squared distance of a photon that counts for a query, or infinity. It counts if it is nearer than the radius, arrived on
+// the same side, and lies near the tangent plane: within a tenth of the radius, so that curved surfaces keep their photons.
+float photonDistance2(Photon photon, Query query, float radius) {
+    vec3 d = photon.position - query.position;
+    float distance2 = dot(d, d);
+    if (distance2 >= radius * radius) return INFINITY;
+    bool near = abs(dot(d, query.normal)) <= 0.1 * radius;
+    return near && dot(unpackUnit(photon.normal), query.normal) > 0.5 ? distance2 : INFINITY;
+}
+
+// Sum of the photons' colours under the kernel, per area of the disc.
+vec3 estimateWithin(PhotonMap map, Query query, float radius) {
+    vec3 sum = vec3(0.0);
+    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        uvec2 range = cellRange(map, first, corner);
+        for (uint i = range.x; i < range.y; i++) {
+            Photon photon = map.photons.at[i];
+            float distance2 = photonDistance2(photon, query, radius);
+            if (distance2 < INFINITY) sum += photon.color * densityWeight(densityKernel, distance2 / (radius * radius));
+        }
+    }
+    return sum / (PI * radius * radius);
+}
+
+// Photons nearer than `low`, and those in [low, high) by interval of squared distance.
+const uint BINS = 16u;
+uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[BINS]) {
+    uint below = 0u;
+    for (uint b = 0u; b < BINS; b++) bins[b] = 0u;
+    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        uvec2 range = cellRange(map, first, corner);
+        for (uint i = range.x; i < range.y; i++) {
+            float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
+            if (distance2 < low) below++;
+            else if (distance2 < high) bins[min(uint((distance2 - low) / (high - low) * float(BINS)), BINS - 1u)]++;
+        }
+    }
+    return below;
+}
+
+// The greatest squared distance below `high` of a photon that counts, or 0.
+float farthestBelow(PhotonMap map, Query query, float high) {
+    float farthest = 0.0;
+    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        uvec2 range = cellRange(map, first, corner);
+        for (uint i = range.x; i < range.y; i++) {
+            float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
+            if (distance2 < high) farthest = max(farthest, distance2);
+        }
+    }
+    return farthest;
+}
+
+// Distance of the k-th nearest photon, or the map's radius if fewer are within it. An interval of squared distance is
+// narrowed sixteenfold at a time until it holds that photon alone (or, after five times, photons equally far to 2^-20).
+// The photon itself is not inside the disc of that radius: k - 1 are, which makes the estimate unbiased.
+float nearestRadius(PhotonMap map, Query query, uint k) {
+    float low = 0.0;
+    float high = map.radius * map.radius;
+    for (uint round = 0u; round < 5u; round++) {
+        uint bins[BINS];
+        uint below = countBins(map, query, low, high, bins);
+        uint b = 0u;
+        while (b < BINS && below + bins[b] < k) below += bins[b++];
+        if (b == BINS) return round == 0u ? map.radius : sqrt(high);
+        float width = (high - low) / float(BINS);
+        low += float(b) * width;
+        high = low + width;
+        if (below + 1u == k && bins[b] == 1u) break;
+    }
+    float farthest = farthestBelow(map, query, high);
+    return farthest > 0.0 ? sqrt(farthest) : sqrt(high);
+}

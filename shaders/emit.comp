@@ -1,0 +1,38 @@
+// Starts photons on the lights: over the hemisphere, or aimed at the bounding spheres of specular shapes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "offset.glsl"
+#include "light.glsl"
+#include "targets.glsl"
+
+ARGS(EmitArgs)
+
+void main() {
+    uint photon = threadIndex();
+    if (photon >= args.count) return;
+    DeviceScene scene = args.scene.at[0];
+    Sampler s = photonSampler(photon, args.pass, args.seed, args.caustic);
+
+    // A light in proportion to its flux, a point on it, and the side if there are two.
+    vec2 choice = sample2(s, 0u);
+    Light light = scene.lights.at[chooseLight(scene, choice.x)];
+    LightPoint point = sampleLight(light, sample2(s, 1u));
+    if (light.twoSided != 0u && choice.y < 0.5) point.normal = -point.normal;
+
+    // A direction, and the weight that makes up for a density other than cos / pi.
+    vec3 direction;
+    float weight = 1.0;
+    vec2 u = sample2(s, 2u);
+    if (args.caustic != 0u) weight = aimAtTargets(scene, point, u, sample2(s, 3u).x, direction);
+    else direction = toWorld(cosineHemisphere(u), point.normal);
+
+    vec3 color = light.radiance / luminance(light.radiance) * weight;
+    vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
+    args.paths.at[photon] = Path(origin, direction, color, 0.0, 0u);
+    args.list.at[photon] = photon;
+    args.flags.at[photon] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
+}

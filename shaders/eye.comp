@@ -1,0 +1,25 @@
+// Starts one path per pixel at the camera, at a place within the pixel that differs from pass to pass (box filter).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "camera.glsl"
+
+ARGS(EyeArgs)
+
+void main() {
+    uint slot = threadIndex();
+    if (slot >= args.count) return;
+    uint pixel = args.firstPixel + slot;
+    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.pass, args.seed), 0u);
+    vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
+    Camera camera = args.scene.at[0].camera;
+    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, 0u);
+    args.list.at[slot] = slot;
+
+    for (uint layer = 0u; layer < LAYER_COUNT; layer++) args.samples.at[slot].layers[layer] = vec3(0.0);
+    args.samples.at[slot].albedo = vec3(0.0);
+    args.samples.at[slot].normal = vec3(0.0);
+    args.samples.at[slot].depth = 0.0;
+    args.samples.at[slot].covered = 0.0;
+}

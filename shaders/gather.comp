@@ -1,0 +1,20 @@
+// Adds what the photon map estimates at each point asked for.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "frame.glsl"
+#include "grid.glsl"
+#include "density.glsl"
+
+ARGS(GatherArgs)
+
+void main() {
+    Queue queue = args.queue.at[0];
+    if (threadIndex() >= queue.count) return;
+    uint slot = args.list.at[queue.first + threadIndex()];
+    Query query = args.queries.at[slot];
+    float radius = hasNearest != 0u ? nearestRadius(args.map, query, args.nearest) : args.map.radius;
+    vec3 irradiance = estimateWithin(args.map, query, radius) * args.map.photonFlux;
+    args.samples.at[slot].layers[query.layer] += query.weight * irradiance;
+}

@@ -1,0 +1,74 @@
+// Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far.
+
+// A ray with what its tests need; `direction` need not be of unit length.
+struct Ray {
+    vec3 origin;
+    vec3 direction;
+    vec3 inverse; // of the direction, finite
+    vec3 shear;   // Woop's S: direction's two minor components over the major one, and 1 / major
+    uint axis;    // of the largest component of the direction
+};
+
+// Puts the major axis last; a cyclic exchange, so that orientation stays.
+vec3 permute(vec3 v, uint axis) {
+    return axis == 2u ? v : axis == 0u ? v.yzx : v.zxy;
+}
+
+Ray makeRay(vec3 origin, vec3 direction) {
+    const float tiny = 7.888609e-31; // 2^-100: keeps 0 times infinity out of the boxes
+    vec3 a = abs(direction);
+    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
+    vec3 p = permute(direction, axis);
+    vec3 safe = mix(direction, vec3(tiny), lessThan(a, vec3(tiny)));
+    return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axis);
+}
+
+// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013).
+float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
+    vec3 t0 = (low - ray.origin) * ray.inverse;
+    vec3 t1 = (high - ray.origin) * ray.inverse;
+    vec3 near = min(t0, t1);
+    vec3 far = max(t0, t1);
+    float enter = max(max(near.x, near.y), max(near.z, 0.0));
+    float leave = min(min(far.x, far.y), min(far.z, tMax)) * 1.0000008;
+    return enter <= leave ? enter : INFINITY;
+}
+
+// Watertight (Woop, Benthin & Wald 2013): neighbours compute a shared edge from the same products,
+// so `precise` matters, and points on an edge belong to both. Returns t, or -1; weights of b and c.
+float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
+    precise vec3 pa = permute(a - ray.origin, ray.axis);
+    precise vec3 pb = permute(b - ray.origin, ray.axis);
+    precise vec3 pc = permute(c - ray.origin, ray.axis);
+    precise vec2 qa = pa.xy - ray.shear.xy * pa.z;
+    precise vec2 qb = pb.xy - ray.shear.xy * pb.z;
+    precise vec2 qc = pc.xy - ray.shear.xy * pc.z;
+
+    precise float u = qc.x * qb.y - qc.y * qb.x;
+    precise float v = qa.x * qc.y - qa.y * qc.x;
+    precise float w = qb.x * qa.y - qb.y * qa.x;
+    bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
+    precise float determinant = u + v + w;
+    if (outside || determinant == 0.0) return -1.0;
+
+    precise float t = (u * pa.z + v * pb.z + w * pc.z) * ray.shear.z / determinant;
+    weights = vec2(v, w) / determinant;
+    return t;
+}
+
+// The nearer root that is > 0, or -1; the discriminant from the distance of the line to the centre,
+// the roots without cancellation (Haines et al. 2019).
+float intersectSphere(Ray ray, vec3 center, float radius) {
+    vec3 f = ray.origin - center;
+    float a = dot(ray.direction, ray.direction);
+    float b = -dot(f, ray.direction);
+    vec3 closest = f + (b / a) * ray.direction;
+    float discriminant = radius * radius - dot(closest, closest);
+    if (discriminant < 0.0) return -1.0;
+    float distance = sqrt(dot(f, f));
+    float c = (distance - radius) * (distance + radius);
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(a * discriminant);
+    float near = min(c / q, q / a);
+    float far = max(c / q, q / a);
+    return q == 0.0 ? -1.0 : near > 0.0 ? near : far > 0.0 ? far : -1.0;
+}

@@ -1,0 +1,33 @@
+// What every kernel starts with: the shared structs, its arguments, and the index of its invocation.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shared.h"
+
+layout(local_size_x = GROUP) in;
+
+#define ARGS(T) layout(push_constant, scalar) uniform PushConstants { T args; };
+
+const float PI = 3.14159265;
+#define INFINITY uintBitsToFloat(0x7f800000u)
+
+// Index over all groups of a dispatch, which may have several rows.
+uint groupIndex() {
+    return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+}
+
+uint threadIndex() {
+    return groupIndex() * GROUP + gl_LocalInvocationIndex;
+}
+
+float maxComponent(vec3 v) {
+    return max(v.x, max(v.y, v.z));
+}
+
+// Without leaning on comparisons of NaN, which drivers may assume away.
+bool isFinite(float x) {
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+bool isFinite(vec3 v) {
+    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+}

@@ -1,0 +1,40 @@
+// Area lights: which one, where on it, how much it sends.
+
+struct LightPoint {
+    vec3 position;
+    vec3 magnitude; // as in Surface
+    vec3 normal;
+};
+
+// The light whose part of the unit interval holds u.
+uint chooseLight(DeviceScene scene, float u) {
+    if (hasManyLights == 0u) return 0u;
+    uint low = 0u;
+    uint high = scene.lightCount - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (u < scene.lightCdf.at[middle]) high = middle;
+        else low = middle + 1u;
+    }
+    return low;
+}
+
+// A point of a light, uniform over area.
+LightPoint sampleLight(Light light, vec2 u) {
+    if (hasSpheres != 0u && light.kind == LIGHT_SPHERE) {
+        vec3 n = uniformSphere(u);
+        return LightPoint(light.a + light.u.x * n, abs(light.a) + light.u.x, n);
+    }
+    vec2 w = light.kind == LIGHT_TRIANGLE ? uniformTriangle(u) : u;
+    vec3 magnitude = abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v);
+    return LightPoint(light.a + w.x * light.u + w.y * light.v, magnitude, normalize(cross(light.u, light.v)));
+}
+
+// Radiance that a light sends in direction w from where its normal is n.
+vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
+    return light.twoSided != 0u || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
+}
+
+float luminance(vec3 color) {
+    return dot(color, vec3(0.2126, 0.7152, 0.0722));
+}

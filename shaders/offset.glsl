@@ -1,0 +1,9 @@
+// Origins of rays that leave a surface.
+
+// A point moved off its surface to the side of n, by about 64 roundings of the numbers it came from:
+// in ulps like Waechter & Binder (2019), but without their absolute part, so that a scene scaled by a
+// power of two keeps its bits.
+vec3 offsetPoint(vec3 position, vec3 magnitude, vec3 n) {
+    const float roundings = 3.8146973e-6; // 2^-18
+    return position + n * (roundings * dot(abs(n), magnitude));
+}

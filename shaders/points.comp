@@ -1,0 +1,29 @@
+// Shows the photons within a pixel's width of each point asked for, in their colours.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "frame.glsl"
+#include "grid.glsl"
+#include "density.glsl"
+
+ARGS(GatherArgs)
+
+void main() {
+    Queue queue = args.queue.at[0];
+    if (threadIndex() >= queue.count) return;
+    uint slot = args.list.at[queue.first + threadIndex()];
+    Query query = args.queries.at[slot];
+    float radius = min(query.footprint, args.map.radius);
+    vec3 sum = vec3(0.0);
+    ivec3 first = firstCell(query.position, args.map.cellsPerUnit);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        uvec2 range = cellRange(args.map, first, corner);
+        for (uint i = range.x; i < range.y; i++) {
+            Photon photon = args.map.photons.at[i];
+            if (photonDistance2(photon, query, radius) < INFINITY) sum += photon.color;
+        }
+    }
+    float brightest = maxComponent(sum);
+    args.samples.at[slot].layers[query.layer] += brightest > 0.0 ? sum / brightest : vec3(0.0);
+}

@@ -1,0 +1,95 @@
+// Photons at the surfaces they hit: those at diffuse ones are kept for the map, and Russian roulette absorbs them or
+// sends them on.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+#include "material.glsl"
+
+ARGS(ScatterArgs)
+
+const uint FATE_ESCAPED = 0u;
+const uint FATE_ABSORBED = 1u;
+const uint FATE_GOES_ON = 2u;
+
+// Goes on with the probability of the colour's greatest component, and makes up for it (Arvo & Kirk 1990).
+bool survives(inout Path path, vec3 color, float u) {
+    float probability = maxComponent(color);
+    if (u >= probability) return false;
+    path.throughput *= color / probability;
+    return true;
+}
+
+uint scatterAtSpecular(inout Path path, Material material, Surface surface, Sampler s) {
+    vec2 u = sample2(s, 4u * args.bounce + 5u);
+    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, PATH_SPECULAR);
+    return survives(path, event.weight, u.y) ? FATE_GOES_ON : FATE_ABSORBED;
+}
+
+// The photon as the map keeps it. Its flux makes up for a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
+Photon arrive(inout Path path, Surface surface, vec3 normal) {
+    if (hasSmoothNormals != 0u) {
+        vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
+        path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
+    }
+    return Photon(surface.position, path.throughput, packUnit(normal));
+}
+
+uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
+    if (!survives(path, material.color, sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
+    vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, 0u);
+    return FATE_GOES_ON;
+}
+
+// Moves the photon on; keeps it in `pending` and sets `deposits` if it belongs into the map.
+uint step(uint slot, out bool deposits) {
+    DeviceScene scene = args.scene.at[0];
+    Path path = args.paths.at[slot];
+    Hit hit = args.hits.at[slot];
+    deposits = false;
+    if (hit.primitive == NONE) return FATE_ESCAPED;
+
+    Sampler s = photonSampler(slot, args.pass, args.seed, args.caustic);
+    Surface surface = surfaceAt(scene, path, hit);
+    Material material = scene.materials.at[surface.material];
+    uint fate;
+    if (!isDiffuse(material)) {
+        fate = scatterAtSpecular(path, material, surface, s);
+    } else if (args.caustic != 0u && path.flags == 0u) {
+        return FATE_ESCAPED; // aimed at a specular shape, but not one that it hit
+    } else {
+        vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
+        Photon photon = arrive(path, surface, normal);
+        deposits = maxComponent(photon.color) > 0.0;
+        if (deposits) args.pending.at[slot] = photon;
+        fate = args.caustic != 0u ? FATE_ABSORBED : scatterAtDiffuse(path, material, surface, normal, s);
+    }
+    if (fate == FATE_GOES_ON) args.paths.at[slot] = path;
+    return fate;
+}
+
+void main() {
+    Queue queue = args.queue.at[0];
+    uint place = threadIndex();
+    if (place >= queue.count) return;
+
+    bool deposits;
+    uint fate = step(args.list.at[queue.first + place], deposits);
+    args.flags.at[place] = uint(fate == FATE_GOES_ON) << QUEUE_CONTINUE | uint(deposits) << QUEUE_DEPOSIT;
+
+    // The ledger; sums of integers do not depend on their order.
+    uint escaped = subgroupAdd(uint(fate == FATE_ESCAPED));
+    uint absorbed = subgroupAdd(uint(fate == FATE_ABSORBED));
+    if (subgroupElect()) {
+        if (escaped > 0u) atomicAdd(args.status.at[0].escaped, escaped);
+        if (absorbed > 0u) atomicAdd(args.status.at[0].absorbed, absorbed);
+    }
+}

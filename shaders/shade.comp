@@ -1,0 +1,145 @@
+// Eye paths at the surfaces they hit: light that is seen, and what to ask of shadow rays and photon maps.
+//
+// The photon integrator asks at the first diffuse vertex for direct light and the caustic map, sends one gather ray on,
+// and asks at its end for the global map. The path integrator goes on and on, and counts the same paths in the same layers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+#include "material.glsl"
+#include "light.glsl"
+
+ARGS(ShadeArgs)
+
+// A pixel's seed for the dimensions of this bounce: four pairs each, after that of the place in the pixel.
+vec2 bounceSample(Sampler s, uint pair) {
+    return sample2(s, 4u * args.bounce + pair + 1u);
+}
+
+void add(uint slot, uint layer, vec3 radiance) {
+    args.samples.at[slot].layers[layer] += radiance;
+}
+
+// The layer of a path, by the name it has if no specular surface stands before the first diffuse one.
+uint layerOf(Path path, uint layer) {
+    return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer;
+}
+
+// Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
+// have the direct part, and the photon integrator has the rest in its maps.
+void seeLight(uint slot, Path path, Light light, vec3 normal) {
+    uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
+    if (diffuse > 0u && (integrator != INTEGRATOR_PATH || (path.flags & PATH_SPECULAR) == 0u)) return;
+    uint layer = diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT;
+    add(slot, layerOf(path, layer), path.throughput * emittedRadiance(light, normal, -path.direction));
+}
+
+// Asks for one light sample, chosen by flux, uniform over the light's area.
+bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight, Sampler s) {
+    Light light = scene.lights.at[chooseLight(scene, bounceSample(s, 0u).x)];
+    LightPoint point = sampleLight(light, bounceSample(s, 1u));
+    vec3 toLight = point.position - surface.position;
+    float distance2 = dot(toLight, toLight);
+    vec3 w = toLight * inversesqrt(distance2);
+    float cosine = dot(w, normal) > 0.0 ? max(0.0, dot(w, shading)) : 0.0;
+    vec3 radiance = emittedRadiance(light, point.normal, -w) * (abs(dot(w, point.normal)) * cosine / distance2)
+        * (light.area / light.probability) * weight / PI;
+    if (!(maxComponent(radiance) > 0.0)) return false;
+
+    vec3 lightSide = dot(w, point.normal) > 0.0 ? -point.normal : point.normal;
+    uint layer = path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT;
+    args.shadowRays.at[slot] = ShadowRay(offsetPoint(surface.position, surface.magnitude, normal),
+        offsetPoint(point.position, point.magnitude, lightSide), radiance, layerOf(path, layer));
+    return true;
+}
+
+void askMap(uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+    float footprint = path.travelled * args.pixelAngle;
+    args.queries.at[slot] = Query(surface.position, normal, weight, layerOf(path, layer), footprint);
+}
+
+// One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
+bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, vec3 albedo, Sampler s) {
+    uint diffuse = (path.flags >> PATH_DIFFUSE_SHIFT) + 1u;
+    float survival = diffuse > 2u ? maxComponent(albedo) : 1.0;
+    if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return false;
+    vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
+    if (dot(direction, normal) <= 0.0) return false;
+    uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput * albedo / survival, 0.0, flags);
+    return true;
+}
+
+bool scatterAtSpecular(inout Path path, Material material, Surface surface, float travelled, Sampler s) {
+    vec2 u = bounceSample(s, 0u);
+    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    float survival = args.bounce > 7u ? min(1.0, maxComponent(event.weight)) : 1.0;
+    if (u.y >= survival) return false;
+    uint flags = path.flags | PATH_SPECULAR | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
+    vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
+    path = Path(leave(surface, event.direction), event.direction, throughput, travelled, flags);
+    return maxComponent(throughput) > 0.0;
+}
+
+// At a diffuse surface: returns the queues that the path goes to.
+uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface, vec3 albedo, Sampler s) {
+    bool behind = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = behind ? -surface.normal : surface.normal;
+    vec3 shading = behind ? -surface.shading : surface.shading;
+    bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
+    vec3 weight = path.throughput * albedo;
+
+    if (integrator == INTEGRATOR_PHOTON_MAP) {
+        askMap(slot, path, surface, normal, path.throughput / PI, args.hasCausticMap != 0u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        return 1u << (args.hasCausticMap != 0u ? QUEUE_CAUSTIC : QUEUE_GLOBAL);
+    }
+    if (integrator == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) {
+        askMap(slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
+        return 1u << QUEUE_GLOBAL;
+    }
+
+    uint queues = 0u;
+    if (askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
+    if (integrator == INTEGRATOR_PHOTON && args.hasCausticMap != 0u) {
+        askMap(slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        queues |= 1u << QUEUE_CAUSTIC;
+    }
+    if (integrator != INTEGRATOR_DIRECT && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    return queues;
+}
+
+uint shade(uint slot) {
+    DeviceScene scene = args.scene.at[0];
+    Path path = args.paths.at[slot];
+    Hit hit = args.hits.at[slot];
+    if (hit.primitive == NONE) return 0u;
+    Surface surface = surfaceAt(scene, path, hit);
+    Material material = scene.materials.at[surface.material];
+    float travelled = path.travelled + hit.t;
+    if (args.bounce == 0u) {
+        args.samples.at[slot].albedo = material.color;
+        args.samples.at[slot].normal = surface.shading;
+        args.samples.at[slot].depth = hit.t * dot(path.direction, scene.camera.forward);
+        args.samples.at[slot].covered = 1.0;
+    }
+    if (surface.light != NONE && integrator != INTEGRATOR_PHOTON_MAP)
+        seeLight(slot, path, scene.lights.at[surface.light], surface.normal);
+
+    Sampler s = pixelSampler(args.firstPixel + slot, args.pass, args.seed);
+    path.travelled = travelled;
+    uint queues;
+    if (isDiffuse(material)) queues = shadeDiffuse(scene, slot, path, surface, material.color, s);
+    else queues = uint(scatterAtSpecular(path, material, surface, travelled, s)) << QUEUE_CONTINUE;
+    if ((queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = path;
+    return queues;
+}
+
+void main() {
+    Queue queue = args.queue.at[0];
+    uint place = threadIndex();
+    if (place < queue.count) args.flags.at[place] = shade(args.list.at[queue.first + place]);
+}

@@ -1,0 +1,16 @@
+// Adds each light sample that nothing hides.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "intersect.glsl"
+#include "traverse.glsl"
+
+ARGS(ShadowArgs)
+
+void main() {
+    Queue queue = args.queue.at[0];
+    if (threadIndex() >= queue.count) return;
+    uint slot = args.list.at[queue.first + threadIndex()];
+    ShadowRay ray = args.shadowRays.at[slot];
+    if (!occluded(args.scene.at[0], ray.origin, ray.target)) args.samples.at[slot].layers[ray.layer] += ray.radiance;
+}

@@ -1,0 +1,498 @@
+// What C++ and GLSL both read: buffer structs, one Args struct per kernel, and the list of features.
+//
+// Every struct has scalar layout: the same bytes in both languages, no padding, no second copy.
+// Lengths are in world units, directions are of unit length, radiance is in W/(m^2 sr), flux in W.
+
+#ifdef __cplusplus
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace vkpm {
+using glm::ivec3, glm::uvec2, glm::vec2, glm::vec3, glm::vec4;
+using uint = std::uint32_t;
+
+/// A device address of an array of T.
+template <class T> struct Ptr { std::uint64_t address = 0; };
+
+#define PTR(T) Ptr<T>
+#define BUFFER(T)
+#else
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#define PTR(T) T##Ptr
+#define BUFFER(T) layout(buffer_reference, scalar, buffer_reference_align = 4) buffer T##Ptr { T at[]; };
+#endif
+
+BUFFER(uint)
+BUFFER(float)
+
+// ---- Features: a specialization constant in GLSL, a field of Features in C++ -------------------
+
+const uint INTEGRATOR_PHOTON = 0u;
+const uint INTEGRATOR_PATH = 1u;
+const uint INTEGRATOR_DIRECT = 2u;
+const uint INTEGRATOR_PHOTON_MAP = 3u;
+
+const uint KERNEL_CONSTANT = 0u;
+const uint KERNEL_CONE = 1u;
+const uint KERNEL_GAUSS = 2u;
+const uint KERNEL_EPANECHNIKOV = 3u;
+
+// id, name, value when nothing is known of the scene
+#define FEATURES(X)                                                                                                    \
+    X(0, hasTriangles, 1)                                                                                              \
+    X(1, hasSpheres, 1)                                                                                                \
+    X(2, hasSmoothNormals, 1)                                                                                          \
+    X(3, hasMirror, 1)                                                                                                 \
+    X(4, hasGlass, 1)                                                                                                  \
+    X(5, hasManyLights, 1)                                                                                             \
+    X(6, hasSchlick, 0)                                                                                                \
+    X(7, stackSize, 64)                                                                                                \
+    X(8, integrator, INTEGRATOR_PHOTON)                                                                                \
+    X(9, densityKernel, KERNEL_CONSTANT)                                                                               \
+    X(10, hasNearest, 0)
+
+#ifdef __cplusplus
+struct Features {
+#define X(id, name, value) uint name = value;
+    FEATURES(X)
+#undef X
+};
+#else
+#define X(id, name, value) layout(constant_id = id) const uint name = value;
+FEATURES(X)
+#undef X
+#endif
+
+// ---- The scene ----------------------------------------------------------------------------------
+
+const uint NONE = 0xffffffffu;
+
+/// A bounding volume hierarchy node with the boxes of its two children packed in the parent.
+/// A child is the index of a node, or LEAF | (count - 1) << LEAF_SHIFT | first slot of `leaves`;
+/// a missing child has an inverted box.
+struct Node {
+    vec3 leftLow;
+    vec3 leftHigh;
+    vec3 rightLow;
+    vec3 rightHigh;
+    uint left;
+    uint right;
+};
+const uint LEAF = 0x80000000u;
+const uint LEAF_SHIFT = 27u;
+const uint LEAF_FIRST = 0x07ffffffu;
+BUFFER(Node)
+
+/// A primitive as traversal reads it, in the order of the leaves (spatial splits may repeat one):
+/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x.
+struct Leaf {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    uint id;
+};
+BUFFER(Leaf)
+
+/// A primitive as shading reads it, in the order of the scene: triangles first, then spheres.
+/// A triangle's geometric normal is that of (b - a) x (c - a); a sphere's points outward.
+struct Primitive {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    uint material;
+    uint light;   // index into `lights`, or NONE
+    uint normals; // index into `normals`, or NONE for a flat triangle or a sphere
+};
+BUFFER(Primitive)
+
+/// Unit shading normals at the three vertices of a triangle.
+struct Normals {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+BUFFER(Normals)
+
+const uint MATERIAL_DIFFUSE = 0u; // Lambert, both sides
+const uint MATERIAL_MIRROR = 1u;  // perfect mirror, both sides
+const uint MATERIAL_GLASS = 2u;   // smooth dielectric interface, its inside against the normal
+
+struct Material {
+    uint kind;
+    vec3 color; // albedo, reflectance, or factor at each refraction, within [0, 1]
+    float ior;  // glass: index inside / index outside
+};
+BUFFER(Material)
+
+const uint LIGHT_RECTANGLE = 0u; // a + x u + y v, x and y in [0, 1]; normal u x v
+const uint LIGHT_TRIANGLE = 1u;  // a, a + u, a + v; normal u x v
+const uint LIGHT_SPHERE = 2u;    // centre a, radius u.x; normal outward
+
+/// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
+struct Light {
+    vec3 a;
+    vec3 u;
+    vec3 v;
+    vec3 radiance;
+    uint kind;
+    uint twoSided;
+    float area;
+    float probability; // of being chosen, in proportion to the luminance of its flux
+};
+BUFFER(Light)
+
+/// A bounding sphere of a specular shape, at which caustic photons are aimed.
+struct Target {
+    vec3 center;
+    float radius;
+};
+BUFFER(Target)
+
+/// A pinhole camera; the ray of film position (x, y) in [0, 1]^2, y down, has the direction
+/// forward + (2 x - 1) right + (1 - 2 y) up, where |right| and |up| are the tangents of the half angles.
+struct Camera {
+    vec3 origin;
+    vec3 forward;
+    vec3 right;
+    vec3 up;
+};
+
+/// Addresses of the arrays of a scene; what a scene lacks has address 0.
+struct DeviceScene {
+    PTR(Node) nodes;
+    PTR(Leaf) leaves;
+    PTR(Primitive) primitives;
+    PTR(Normals) normals;
+    PTR(Material) materials;
+    PTR(Light) lights;
+    PTR(float) lightCdf; // upper ends, the last is 1
+    PTR(Target) targets;
+    uint triangleCount;
+    uint lightCount;
+    uint targetCount;
+    Camera camera;
+};
+BUFFER(DeviceScene)
+
+// ---- The film -----------------------------------------------------------------------------------
+
+const uint LAYER_EMISSION = 0u; // L E
+const uint LAYER_DIRECT = 1u;   // L D E
+const uint LAYER_SPECULAR = 2u; // all of the others seen through S+
+const uint LAYER_CAUSTIC = 3u;  // L S+ D E
+const uint LAYER_INDIRECT = 4u; // L (S|D)* D S* D E
+const uint LAYER_COUNT = 5u;
+
+/// What one pass adds to a pixel: radiance by layer, and the first surface seen.
+struct Sample {
+    vec3 layers[LAYER_COUNT];
+    vec3 albedo;
+    vec3 normal;
+    float depth;   // distance along the camera's axis
+    float covered; // 1 if a surface was seen, else 0
+};
+BUFFER(Sample)
+
+/// The running means over passes of a pixel's samples, and the sum of squared deviations of beauty (Welford 1962).
+struct Pixel {
+    Sample mean;
+    vec3 deviation;
+};
+BUFFER(Pixel)
+
+// ---- Paths: photons from the lights, rays from the eye ------------------------------------------
+
+const uint GROUP = 64u; // invocations of a work group, of every kernel
+
+/// What a dispatch reads on the device: how many groups, and which part of a list they work on.
+struct Queue {
+    uint groupsX; // the first three are VkDispatchIndirectCommand
+    uint groupsY;
+    uint groupsZ;
+    uint first; // index into the list
+    uint count;
+    uint base; // elements that this queue has had in earlier rounds
+};
+BUFFER(Queue)
+
+/// A ray under way, of a photon or from the eye.
+struct Path {
+    vec3 origin;
+    vec3 direction;
+    vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
+    float travelled; // since the last diffuse vertex
+    uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
+};
+const uint PATH_EYE_SPECULAR = 1u; // eye: the first vertex was specular
+const uint PATH_SPECULAR = 2u;     // the last vertex was specular
+const uint PATH_DIFFUSE_SHIFT = 2u;
+BUFFER(Path)
+
+/// Where a ray ends: distance in units of its direction's length, primitive or NONE, barycentric weights of b and c.
+struct Hit {
+    float t;
+    uint primitive;
+    vec2 weights;
+};
+BUFFER(Hit)
+
+/// A photon where it arrived at a diffuse surface.
+struct Photon {
+    vec3 position;
+    vec3 color;  // relative to the flux per photon
+    uint normal; // geometric, on the side of arrival, octahedral 2 x 16 bit
+};
+BUFFER(Photon)
+
+/// What the host reads after a step: counters, and what ran out.
+struct Status {
+    uint overflow;  // OVERFLOW_...
+    uint absorbed;  // photons
+    uint escaped;   // photons that left the scene or missed what they were aimed at
+    uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
+};
+const uint OVERFLOW_PHOTONS = 1u;
+const uint NONFINITE_PHOTON = LAYER_COUNT;
+BUFFER(Status)
+
+// Bits of a path's flags after a step; bit k puts the path into queue k.
+const uint QUEUE_CONTINUE = 0u;
+const uint QUEUE_DEPOSIT = 1u; // photons
+const uint PHOTON_QUEUES = 2u;
+const uint QUEUE_SHADOW = 1u; // eye
+const uint QUEUE_CAUSTIC = 2u;
+const uint QUEUE_GLOBAL = 3u;
+const uint EYE_QUEUES = 4u;
+
+struct EmitArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(uint) list;
+    PTR(uint) flags;
+    uint count;
+    uint pass;
+    uint seed;
+    uint caustic; // 1: aimed at the targets
+};
+
+struct TraceArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Hit) hits;
+    PTR(Queue) queue;
+    PTR(uint) list;
+};
+
+struct ScatterArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Hit) hits;
+    PTR(Photon) pending; // by path
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) flags; // by place in the list
+    PTR(Status) status;
+    uint pass;
+    uint seed;
+    uint bounce;
+    uint caustic;
+};
+
+struct TallyArgs {
+    PTR(Queue) queue;
+    PTR(uint) flags;
+    PTR(uint) sums; // [kind][group]
+    uint kinds;
+};
+
+struct ScanArgs {
+    PTR(uint) values; // becomes its exclusive prefix sum, with the total behind it
+    PTR(Queue) queue;
+    uint kinds;
+    uint blockSize; // values per kind: the queue's count over this, rounded up
+};
+
+struct EnqueueArgs {
+    PTR(Queue) queues; // one per kind; the first is the one that was compacted
+    PTR(uint) sums;
+    uint kinds;
+};
+
+struct CompactArgs {
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) flags;
+    PTR(uint) sums;
+    PTR(uint) nextList;
+    uint kinds;
+};
+
+struct DepositArgs {
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(Photon) pending;
+    PTR(Photon) photons;
+    PTR(Status) status;
+    uint capacity;
+};
+
+// ---- The photon grid ----------------------------------------------------------------------------
+
+/// Photons in the order of their cells' keys, and where each key starts.
+struct PhotonMap {
+    PTR(Photon) photons;
+    PTR(uint) cells; // cellMask + 2 entries
+    float cellsPerUnit;
+    uint cellMask;
+    float radius;
+    float photonFlux; // W per photon emitted
+};
+
+struct KeysArgs {
+    PTR(Photon) photons;
+    PTR(uint) keys;
+    PTR(uint) values;
+    uint count;
+    float cellsPerUnit;
+    uint cellMask;
+};
+
+const uint SORT_BITS = 8u;
+const uint SORT_BLOCK = 4096u; // elements that a group sorts
+
+struct SortCountArgs {
+    PTR(uint) keys;
+    PTR(uint) sums; // [digit][block]
+    uint count;
+    uint shift;
+};
+
+struct SortScatterArgs {
+    PTR(uint) keys;
+    PTR(uint) values;
+    PTR(uint) sortedKeys;
+    PTR(uint) sortedValues;
+    PTR(uint) sums;
+    uint count;
+    uint shift;
+};
+
+struct ArrangeArgs {
+    PTR(Photon) photons;
+    PTR(uint) order;
+    PTR(Photon) arranged;
+    uint count;
+};
+
+struct CellsArgs {
+    PTR(uint) keys;
+    PTR(uint) cells;
+    uint count;
+    uint cellMask;
+};
+
+// ---- The camera pass ----------------------------------------------------------------------------
+
+/// A light sample that counts if nothing stands between the two points.
+struct ShadowRay {
+    vec3 origin;
+    vec3 target;
+    vec3 radiance;
+    uint layer;
+};
+BUFFER(ShadowRay)
+
+/// A point whose irradiance is estimated from a photon map; it adds weight times irradiance to a layer.
+struct Query {
+    vec3 position;
+    vec3 normal; // geometric, on the side of the viewer
+    vec3 weight;
+    uint layer;
+    float footprint; // radius that a pixel covers there
+};
+BUFFER(Query)
+
+struct EyeArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Sample) samples;
+    PTR(uint) list;
+    uvec2 size;
+    uint firstPixel;
+    uint count;
+    uint pass;
+    uint seed;
+    uint centered; // 1: through the middle of the pixel
+};
+
+struct ShadeArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Hit) hits;
+    PTR(Sample) samples;
+    PTR(ShadowRay) shadowRays;
+    PTR(Query) queries;
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) flags;
+    uint firstPixel;
+    uint pass;
+    uint seed;
+    uint bounce;
+    uint hasCausticMap; // photon-map integrator: show the caustic map
+    float nearDistance; // a gather ray shorter than this goes on
+    float pixelAngle;   // width of a pixel over its distance
+};
+
+struct ShadowArgs {
+    PTR(DeviceScene) scene;
+    PTR(ShadowRay) shadowRays;
+    PTR(Sample) samples;
+    PTR(Queue) queue;
+    PTR(uint) list;
+};
+
+struct GatherArgs {
+    PhotonMap map;
+    PTR(Query) queries;
+    PTR(Sample) samples;
+    PTR(Queue) queue;
+    PTR(uint) list;
+    uint nearest;
+};
+
+struct FilmArgs {
+    PTR(Sample) samples;
+    PTR(Pixel) pixels;
+    PTR(Status) status;
+    uint firstPixel;
+    uint count;
+    uint passes; // that the pixels hold already
+};
+
+struct DevelopArgs {
+    PTR(Pixel) pixels;
+    PTR(uint) colors; // 8 bit sRGB, red in the lowest byte
+    uint count;
+    float exposure; // factor
+};
+
+// ---- The driver audit ---------------------------------------------------------------------------
+
+const uint AUDIT_LOOP = 0u;
+const uint AUDIT_DIVERGENT = 1u;
+const uint AUDIT_SHARED = 2u;
+const uint AUDIT_WIDE = 3u;
+const uint AUDIT_FLOAT = 4u;
+
+struct AuditArgs {
+    PTR(uint) results;
+    uint count;
+    uint test; // AUDIT_...
+    uint trips;
+};
+
+#ifdef __cplusplus
+} // namespace vkpm
+#endif

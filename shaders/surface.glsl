@@ -1,0 +1,43 @@
+// The surface at a hit: where it is, how it is turned, what it is made of.
+
+struct Surface {
+    vec3 position;
+    vec3 magnitude; // of the numbers that were rounded to get the position, by component
+    vec3 normal;    // geometric
+    vec3 shading;   // normal, on the same side as the geometric one
+    uint material;
+    uint light;
+};
+
+Surface triangleSurface(DeviceScene scene, Primitive p, vec2 weights) {
+    float first = 1.0 - weights.x - weights.y;
+    vec3 a = first * p.a;
+    vec3 b = weights.x * p.b;
+    vec3 c = weights.y * p.c;
+    vec3 normal = normalize(cross(p.b - p.a, p.c - p.a));
+    vec3 shading = normal;
+    if (hasSmoothNormals != 0u && p.normals != NONE) {
+        Normals n = scene.normals.at[p.normals];
+        shading = normalize(first * n.a + weights.x * n.b + weights.y * n.c);
+        if (dot(shading, normal) < 0.0) shading = -shading;
+    }
+    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light);
+}
+
+// The hit point is projected onto the sphere, so that its error is that of one rounding, not of t.
+Surface sphereSurface(Primitive p, vec3 along) {
+    vec3 normal = normalize(along - p.a);
+    return Surface(p.a + p.b.x * normal, abs(p.a) + p.b.x, normal, normal, p.material, p.light);
+}
+
+Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {
+    Primitive p = scene.primitives.at[hit.primitive];
+    if (hasSpheres != 0u && (hasTriangles == 0u || hit.primitive >= scene.triangleCount))
+        return sphereSurface(p, path.origin + hit.t * path.direction);
+    return triangleSurface(scene, p, hit.weights);
+}
+
+// The origin of a ray that leaves the surface in a direction.
+vec3 leave(Surface s, vec3 direction) {
+    return offsetPoint(s.position, s.magnitude, dot(direction, s.normal) < 0.0 ? -s.normal : s.normal);
+}

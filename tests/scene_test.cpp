@@ -1,0 +1,274 @@
+/// The scene loader: what it makes of cameras, materials, shapes, transforms, meshes and lights.
+#include "scene/scene.h"
+#include "scene/bounding_sphere.h"
+#include "scene_text.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+namespace vkpm {
+namespace {
+
+using glm::dvec3;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::FloatNear;
+using testing::HasSubstr;
+constexpr float pi = std::numbers::pi_v<float>;
+
+std::filesystem::path data(const std::string& name) { return std::filesystem::path{VKPM_TEST_DATA} / name; }
+
+void expectNear(vec3 found, vec3 expected, float tolerance = 1e-6f) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], tolerance) << "component " << i;
+}
+
+vec3 normalOf(const Primitive& p) { return glm::normalize(glm::cross(p.b - p.a, p.c - p.a)); }
+
+/// The small scene with its first shape replaced.
+json withShape(const json& shape) {
+    json scene = smallScene();
+    scene["shapes"][0] = shape;
+    return scene;
+}
+
+json mesh(const std::string& name) {
+    return {{"type", "mesh"}, {"file", data(name).string()}, {"material", "grey"}};
+}
+
+/// Six times the volume that triangles enclose; positive if they face outward.
+double signedVolume(const Scene& scene, std::size_t count) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Primitive& p = scene.primitives[i];
+        sum += glm::dot(dvec3{p.a}, glm::cross(dvec3{p.b}, dvec3{p.c}));
+    }
+    return sum;
+}
+
+TEST(Scene, BoxHasTheNumbersOfItsReference) {
+    const Scene box = loadScene(std::filesystem::path{VKPM_SCENES} / "box.json");
+    EXPECT_EQ(box.name, "box");
+    EXPECT_EQ(box.triangleCount, 12u);
+    ASSERT_EQ(box.primitives.size(), 14u);
+    EXPECT_EQ(box.materials.size(), 6u); // with the light's black
+    expectNear(normalOf(box.primitives[0]), {0, 1, 0});
+    expectNear(normalOf(box.primitives[2]), {0, -1, 0});
+    expectNear(normalOf(box.primitives[4]), {0, 0, 1});
+    expectNear(normalOf(box.primitives[6]), {1, 0, 0});
+    expectNear(normalOf(box.primitives[8]), {-1, 0, 0});
+
+    ASSERT_EQ(box.lights.size(), 1u);
+    const Light& light = box.lights[0];
+    EXPECT_EQ(light.kind, LIGHT_RECTANGLE);
+    EXPECT_EQ(light.area, 0.25f);
+    EXPECT_EQ(light.probability, 1.0f);
+    EXPECT_EQ(light.twoSided, 0u);
+    expectNear(glm::cross(light.u, light.v), {0, -0.25f, 0});
+    expectNear(box.flux, pi * 0.25f * vec3{17, 12, 4}, 1e-5f);
+    EXPECT_EQ(box.primitives[10].light, 0u);
+    EXPECT_EQ(box.primitives[11].light, 0u);
+    expectNear(box.materials[box.primitives[10].material].color, vec3{0});
+
+    ASSERT_EQ(box.targets.size(), 2u);
+    expectNear(box.targets[1].center, {0.45f, -0.65f, 0.25f});
+    EXPECT_EQ(box.targets[1].radius, 0.35f);
+    expectNear(box.bounds.low, vec3{-1});
+    expectNear(box.bounds.high, vec3{1});
+}
+
+TEST(Scene, ShippedScenesLoadWithoutWarnings) {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator{VKPM_SCENES}) {
+        EXPECT_LT(entry.file_size(), 1u << 20u) << entry.path();
+        if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".schema") continue;
+        const Scene scene = loadScene(entry.path());
+        EXPECT_THAT(scene.warnings, testing::IsEmpty()) << entry.path();
+        EXPECT_EQ(scene.text.find("{\n  \"about\": \""), 0u) << entry.path();
+        EXPECT_THAT(scene.text, HasSubstr("\n  \"$schema\": \"scene.schema.json\",\n")) << entry.path();
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 5);
+}
+
+TEST(Scene, SettingsOverrideDefaults) {
+    const Settings settings = loadJson(smallScene()).settings;
+    EXPECT_EQ(settings.size, uvec2(8, 4));
+    EXPECT_EQ(settings.exposure, 1.0f);
+    EXPECT_EQ(settings.passes, 2u);
+    EXPECT_EQ(settings.photons, 10u);
+    EXPECT_EQ(settings.causticPhotons, 10u);
+    EXPECT_EQ(settings.radius, 0.1f);
+    EXPECT_EQ(settings.causticRadius, 0.1f);
+    EXPECT_EQ(settings.nearest, 5u);
+    EXPECT_EQ(settings.kernel, KERNEL_CONE);
+    EXPECT_TRUE(settings.schlick);
+    EXPECT_EQ(settings.seed, 7u);
+
+    json plain = smallScene();
+    for (const char* key : {"film", "settings"}) plain.erase(key);
+    plain["camera"].erase("fieldOfView");
+    const Scene defaults = loadJson(plain);
+    EXPECT_EQ(defaults.settings.size, Settings{}.size);
+    EXPECT_FALSE(defaults.settings.radius.has_value());
+    EXPECT_EQ(defaults.view.fieldOfView, View{}.fieldOfView);
+}
+
+TEST(Scene, ByteOrderMarkAndCarriageReturnsAreAccepted) {
+    std::string text = smallScene().dump(1);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
+    EXPECT_EQ(loadText("\xEF\xBB\xBF" + text).primitives.size(), 3u);
+}
+
+TEST(Scene, MaterialsKeepTheirKindAndTheRatioOfIndices) {
+    json scene = smallScene();
+    scene["materials"]["water"] = {{"type", "glass"}, {"ior", 1.0}, {"exteriorIor", 2}, {"tint", {0.1, 0.2, 0.3}}};
+    const std::vector<Material> materials = loadJson(scene).materials; // grey, steel, water, black
+    EXPECT_EQ(materials[0].kind, MATERIAL_DIFFUSE);
+    expectNear(materials[0].color, vec3{0.5f});
+    EXPECT_EQ(materials[1].kind, MATERIAL_MIRROR);
+    expectNear(materials[1].color, {0.9f, 0.8f, 0.7f});
+    EXPECT_EQ(materials[2].kind, MATERIAL_GLASS);
+    expectNear(materials[2].color, {0.1f, 0.2f, 0.3f});
+    EXPECT_EQ(materials[2].ior, 0.5f);
+}
+
+TEST(Scene, TransformsAreAppliedInOrder) {
+    const json steps = json::parse(R"([{"scale": 2}, {"rotate": {"axis": [0, 0, 3], "degrees": 90}}, {"translate": [5, 0, 0]},
+                                       {"matrix": [1, 0, 0, 0,  0, 1, 0, 10,  0, 0, 1, 0,  0, 0, 0, 1]}])");
+    const json sphere{{"type", "sphere"}, {"center", {1, 0, 0}}, {"radius", 0.5}, {"material", "steel"}, {"transform", steps}};
+    const Scene scene = loadJson(withShape(sphere));
+    expectNear(scene.primitives.back().a, {5, 12, 0});
+    EXPECT_NEAR(scene.primitives.back().b.x, 1, 1e-6);
+    ASSERT_EQ(scene.targets.size(), 1u);
+    EXPECT_EQ(scene.targets[0].radius, scene.primitives.back().b.x);
+}
+
+TEST(Scene, MirroredShapesKeepTheirOutside) {
+    for (const json& scale : {json{-1}, json{{1, -2, 3}}, json{{1, 1, -1}}, json{{1, 2, 3}}, json{{-1, -1, 1}}}) {
+        json cube = mesh("cube.obj");
+        cube["transform"] = {{{"scale", scale.is_array() && scale.size() == 1 ? scale[0] : scale}}};
+        const Scene scene = loadJson(withShape(cube));
+        EXPECT_GT(signedVolume(scene, 12), 0) << scale;
+        for (std::size_t i = 0; i < 12; ++i)
+            expectNear(scene.normals[scene.primitives[i].normals].b, normalOf(scene.primitives[i]));
+
+        json floor{{"type", "rectangle"}, {"corner", {0, -1, 0}}, {"edges", {{0, 0, 1}, {1, 0, 0}}}, {"material", "grey"}};
+        floor["transform"] = cube["transform"];
+        const Primitive p = loadJson(withShape(floor)).primitives[0];
+        EXPECT_EQ(normalOf(p).y, p.a.y < 0 ? 1.0f : -1.0f) << scale; // away from y = -1, towards the origin
+    }
+}
+
+TEST(Scene, MeshNormalsAreThoseOfTheFileComputedOrNone) {
+    const Scene fromFile = loadJson(withShape(mesh("cube.obj")));
+    EXPECT_EQ(fromFile.triangleCount, 14u);
+    EXPECT_EQ(fromFile.normals.size(), 12u);
+    EXPECT_NE(sceneFeatures(fromFile, {}).hasSmoothNormals, 0u);
+
+    json flat = mesh("cube.obj");
+    flat["smooth"] = false;
+    EXPECT_TRUE(loadJson(withShape(flat)).normals.empty());
+    EXPECT_TRUE(loadJson(withShape(mesh("plain_cube.obj"))).normals.empty());
+
+    // By angles, the three faces at a cube's corner weigh the same however they are triangulated.
+    json smooth = mesh("plain_cube.obj");
+    smooth["smooth"] = true;
+    const Scene computed = loadJson(withShape(smooth));
+    ASSERT_EQ(computed.normals.size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) {
+        const Primitive& p = computed.primitives[i];
+        expectNear(computed.normals[p.normals].a, glm::normalize(p.a));
+        expectNear(computed.normals[p.normals].c, glm::normalize(p.c));
+    }
+}
+
+TEST(Scene, TrianglesWithoutAreaAreDroppedWithAWarning) {
+    const Scene scene = loadJson(withShape(mesh("flat_triangle.obj")));
+    EXPECT_EQ(scene.triangleCount, 3u); // one of two, and the light's
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("scene.json: /shapes/0: 1 of 2 triangles")));
+}
+
+TEST(Scene, LightsAreChosenByLuminousFlux) {
+    json scene = smallScene();
+    json sphere{{"type", "sphere"}, {"center", {9, 0, 0}}, {"radius", 2}, {"emission", 3}};
+    json cube = mesh("cube.obj");
+    cube["emission"] = {0, 1, 0};
+    cube["twoSided"] = true;
+    scene["shapes"].push_back(sphere);
+    scene["shapes"].push_back(cube);
+    const Scene lit = loadJson(scene);
+    ASSERT_EQ(lit.lights.size(), 14u);
+    EXPECT_NE(sceneFeatures(lit, {}).hasManyLights, 0u);
+
+    // Area times luminance times sides: the rectangle, the sphere, and each triangle of the cube of side 2.
+    const double weights[] = {4 * (0.2126 + 2 * 0.7152 + 3 * 0.0722), 16 * pi * 3, 2 * 0.7152 * 2};
+    const double total = weights[0] + weights[1] + 12 * weights[2];
+    float last = 0;
+    for (std::size_t i = 0; i < 14; ++i) {
+        EXPECT_NEAR(lit.lights[i].probability, weights[std::min<std::size_t>(i, 2)] / total, 1e-6);
+        EXPECT_EQ(lit.lightCdf[i] - last, lit.lights[i].probability);
+        last = lit.lightCdf[i];
+    }
+    EXPECT_EQ(last, 1.0f);
+    EXPECT_NEAR(lit.flux.y, pi * (4 * 2 + 16 * pi * 3 + 24 * 2), 1e-3);
+    EXPECT_EQ(lit.lights[1].kind, LIGHT_SPHERE);
+    EXPECT_EQ(lit.lights[1].u.x, 2.0f);
+    EXPECT_EQ(lit.lights[2].kind, LIGHT_TRIANGLE);
+    for (std::size_t i = 0; i < lit.triangleCount; ++i) {
+        const Primitive& p = lit.primitives[i];
+        if (p.light == NONE || lit.lights[p.light].kind != LIGHT_TRIANGLE) continue;
+        EXPECT_EQ(lit.lights[p.light].a + lit.lights[p.light].u, p.b);
+    }
+}
+
+TEST(Scene, FeaturesAreWhatShapesUse) {
+    const Scene plain = loadJson(smallScene()); // mirror and glass are declared, but no shape has them
+    Features features = sceneFeatures(plain, plain.settings);
+    EXPECT_EQ(features.hasTriangles, 1u);
+    EXPECT_EQ(features.hasSpheres, 1u);
+    EXPECT_EQ(features.hasMirror, 0u);
+    EXPECT_EQ(features.hasGlass, 0u);
+    EXPECT_EQ(features.hasSmoothNormals, 0u);
+    EXPECT_EQ(features.hasManyLights, 0u);
+    EXPECT_EQ(features.hasSchlick, 1u);
+    EXPECT_EQ(features.hasNearest, 1u);
+    EXPECT_EQ(features.densityKernel, KERNEL_CONE);
+    EXPECT_EQ(features.stackSize, plain.stackSize);
+    EXPECT_TRUE(plain.targets.empty());
+
+    json specular = smallScene();
+    specular["shapes"][0]["material"] = "water";
+    features = sceneFeatures(loadJson(specular), Settings{});
+    EXPECT_EQ(features.hasGlass, 1u);
+    EXPECT_EQ(features.hasSchlick, 0u);
+}
+
+TEST(Scene, PinholeCameraSpansTheFieldOfView) {
+    const View view{{1, 2, 3}, {1, 2, -7}, {0.3f, 5, 9}, pi / 2};
+    const Camera camera = pinholeCamera(view, {300, 100});
+    expectNear(camera.forward, {0, 0, -1});
+    EXPECT_NEAR(glm::length(camera.up), 1, 1e-6);
+    EXPECT_NEAR(glm::length(camera.right), 3, 1e-6);
+    EXPECT_NEAR(glm::dot(camera.up, camera.right), 0, 1e-6);
+    EXPECT_GT(camera.up.y, 0.9f);
+    EXPECT_GT(camera.right.x, 0.0f);
+}
+
+TEST(BoundingSphere, HoldsAllPointsAndIsSmall) {
+    std::mt19937 random{1};
+    std::normal_distribution<float> normal;
+    for (const float scale : {1e-9f, 1.0f, 1e9f}) {
+        std::vector<vec3> points;
+        for (int i = 0; i < 5000; ++i)
+            points.push_back(scale * (vec3{5, 0, -3} + glm::normalize(vec3{normal(random), normal(random), normal(random)})));
+        const Target sphere = boundingSphere(points);
+        for (const vec3 point : points) ASSERT_LE(glm::distance(point, sphere.center), sphere.radius);
+        EXPECT_LT(sphere.radius, 1.03f * scale);
+    }
+    const std::vector<vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    EXPECT_NEAR(boundingSphere(square).radius, std::sqrt(0.5f), 1e-5f);
+}
+
+} // namespace
+} // namespace vkpm
