@@ -78,6 +78,12 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
     return abs(dot(wi, n) * dot(wo, geometric)) / max(abs(dot(wi, geometric) * dot(wo, n)), 1e-6);
 }
 
+// Probability with which a path goes on at a specular surface. Light within glass near the critical angle may be reflected
+// for ever without loss: from the 32nd bounce on a tenth ends at each.
+float specularSurvival(vec3 weight, uint bounce) {
+    return min(maxComponent(weight), bounce < 32u ? 1.0 : 0.9);
+}
+
 bool isDiffuse(Material m) {
     return (hasMirror == 0u && hasGlass == 0u) || m.kind == MATERIAL_DIFFUSE;
 }

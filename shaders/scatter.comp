@@ -17,9 +17,8 @@ const uint FATE_ESCAPED = 0u;
 const uint FATE_ABSORBED = 1u;
 const uint FATE_GOES_ON = 2u;
 
-// Goes on with the probability of the colour's greatest component, and makes up for it (Arvo & Kirk 1990).
-bool survives(inout Path path, vec3 color, float u) {
-    float probability = maxComponent(color);
+// Goes on with a probability, and makes up for it (Arvo & Kirk 1990).
+bool survives(inout Path path, vec3 color, float probability, float u) {
     if (u >= probability) return false;
     path.throughput *= color / probability;
     return true;
@@ -30,7 +29,7 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
     path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, PATH_SPECULAR);
-    return survives(path, event.weight, u.y) ? FATE_GOES_ON : FATE_ABSORBED;
+    return survives(path, event.weight, specularSurvival(event.weight, args.bounce), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
 }
 
 // The photon as the map keeps it. Its flux makes up for a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
@@ -43,7 +42,7 @@ Photon arrive(inout Path path, Surface surface, vec3 normal) {
 }
 
 uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
-    if (!survives(path, material.color, sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
+    if (!survives(path, material.color, maxComponent(material.color), sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
     path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, 0u);
     return FATE_GOES_ON;

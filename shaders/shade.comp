@@ -77,7 +77,7 @@ bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, 
 bool scatterAtSpecular(inout Path path, Material material, Surface surface, float travelled, Sampler s) {
     vec2 u = bounceSample(s, 0u);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
-    float survival = args.bounce > 7u ? min(1.0, maxComponent(event.weight)) : 1.0;
+    float survival = args.bounce < 8u ? 1.0 : specularSurvival(event.weight, args.bounce);
     if (u.y >= survival) return false;
     uint flags = path.flags | PATH_SPECULAR | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);

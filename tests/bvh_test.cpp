@@ -62,7 +62,7 @@ struct Shapes {
 };
 
 void updateHit(Hit& hit, double t, uint id) {
-    if (t < hit.t || (t == hit.t && id < hit.id)) hit = {t, id};
+    if (t < infinity && (t < hit.t || (t == hit.t && id < hit.id))) hit = {t, id};
 }
 
 Hit closestByTree(const Bvh& bvh, uint triangleCount, dvec3 origin, dvec3 direction) {
