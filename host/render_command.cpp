@@ -1,6 +1,7 @@
 /// vkpm --scene: a render without a window.
 #include "commands.h"
 #include "gpu/audit.h"
+#include "output/atomic_file.h"
 #include "output/exr.h"
 #include "output/film_image.h"
 #include "output/interrupt.h"
@@ -74,6 +75,9 @@ int render(const Options& options) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "vkpm: warning: {}\n", warning);
     const Settings settings = chooseRadii(scene, options.override(scene.settings));
 
+    requireWritable(options.output);
+    if (options.stats) requireWritable(*options.stats);
+
     Gpu gpu(options.device);
     requireSoundDriver(gpu);
     Renderer renderer(gpu, scene, settings);
@@ -85,6 +89,8 @@ int render(const Options& options) {
             progress.update(renderer.passes(), raysOf(renderer));
         }
     }
+
+    if (renderer.passes() == 0) return 130; // nothing to save: an older picture stays
 
     Statistics statistics = statisticsOf(gpu, renderer, settings);
     statistics.renderSeconds = secondsSince(begin);

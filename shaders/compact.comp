@@ -1,33 +1,42 @@
-// Writes the list of each kind of flag, in the order of the list that was flagged: the last step of a compaction.
+// Writes the list of each kind of flag, in the order of the list that was flagged, and its queue: the last step of a
+// compaction.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 ARGS(CompactArgs)
 
-shared uvec2 masks[EYE_QUEUES]; // who of this group has the flag
+// Where a kind starts in the new list; blocks may be 0.
+uint firstOf(uint kind, uint blocks) {
+    return args.sums.at[kind * blocks];
+}
 
-uint rank(uvec2 mask, uint index) {
-    uint low = index < 32u ? (1u << index) - 1u : 0xffffffffu;
-    uint high = index < 32u ? 0u : (1u << (index - 32u)) - 1u;
-    return bitCount(mask.x & low) + bitCount(mask.y & high);
+// The queue that the next steps run on.
+void writeQueue(uint kind, uint blocks) {
+    uint first = firstOf(kind, blocks);
+    uint count = firstOf(kind + 1u, blocks) - first;
+    Queue old = args.queues.at[kind];
+    uint groups = (count + GROUP - 1u) / GROUP;
+    uint columns = min(groups, 65535u);
+    uint rows = columns == 0u ? 0u : (groups + columns - 1u) / columns;
+    args.nextQueues.at[kind] = Queue(columns, rows, 1u, first, count, old.base + old.count);
 }
 
 void main() {
-    Queue queue = args.queue.at[0];
-    uint groups = (queue.count + GROUP - 1u) / GROUP;
-    uint index = gl_LocalInvocationIndex;
-    if (index < EYE_QUEUES) masks[index] = uvec2(0u);
-    barrier();
-    uint flags = threadIndex() < queue.count ? args.flags.at[threadIndex()] : 0u;
-    for (uint kind = 0u; kind < args.kinds; kind++) {
-        if ((flags >> kind & 1u) == 0u) continue;
-        if (index < 32u) atomicOr(masks[kind].x, 1u << index);
-        else atomicOr(masks[kind].y, 1u << (index - 32u));
-    }
-    barrier();
+    uint count = args.queues.at[0].count;
+    uint first = args.queues.at[0].first;
+    uint blocks = (count + COMPACTION_BLOCK - 1u) / COMPACTION_BLOCK;
+    uint block = threadIndex();
+    if (block < args.kinds) writeQueue(block, blocks);
+    if (block >= blocks) return;
 
-    uint slot = flags != 0u ? args.list.at[queue.first + threadIndex()] : 0u;
-    for (uint kind = 0u; kind < args.kinds; kind++)
-        if ((flags >> kind & 1u) != 0u) args.nextList.at[args.sums.at[kind * groups + groupIndex()] + rank(masks[kind], index)] = slot;
+    uint next[EYE_QUEUES];
+    for (uint kind = 0u; kind < args.kinds; kind++) next[kind] = args.sums.at[kind * blocks + block];
+    uint last = min((block + 1u) * COMPACTION_BLOCK, count);
+    for (uint place = block * COMPACTION_BLOCK; place < last; place++) {
+        uint flags = args.flags.at[place];
+        uint slot = args.list.at[first + place];
+        for (uint kind = 0u; kind < args.kinds; kind++)
+            if ((flags >> kind & 1u) != 0u) args.nextList.at[next[kind]++] = slot;
+    }
 }

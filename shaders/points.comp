@@ -14,7 +14,7 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
-    float radius = min(query.footprint, args.map.radius);
+    float radius = min(1.5 * query.footprint, args.map.radius);
     vec3 sum = vec3(0.0);
     ivec3 first = firstCell(query.position, args.map.cellsPerUnit);
     for (uint corner = 0u; corner < 8u; corner++) {

@@ -203,7 +203,8 @@ BUFFER(Pixel)
 
 // ---- Paths: photons from the lights, rays from the eye ------------------------------------------
 
-const uint GROUP = 64u; // invocations of a work group, of every kernel
+const uint GROUP = 64u;            // invocations of a work group, of every kernel
+const uint COMPACTION_BLOCK = 64u; // places of a list that an invocation compacts
 
 /// What a dispatch reads on the device: how many groups, and which part of a list they work on.
 struct Queue {
@@ -302,7 +303,7 @@ struct ScatterArgs {
 struct TallyArgs {
     PTR(Queue) queue;
     PTR(uint) flags;
-    PTR(uint) sums; // [kind][group]
+    PTR(uint) sums; // [kind][block]
     uint kinds;
 };
 
@@ -313,17 +314,12 @@ struct ScanArgs {
     uint blockSize; // values per kind: the queue's count over this, rounded up
 };
 
-struct EnqueueArgs {
-    PTR(Queue) queues; // one per kind; the first is the one that was compacted
-    PTR(uint) sums;
-    uint kinds;
-};
-
 struct CompactArgs {
-    PTR(Queue) queue;
+    PTR(Queue) queues; // one per kind; the first is the one that is compacted
     PTR(uint) list;
     PTR(uint) flags;
     PTR(uint) sums;
+    PTR(Queue) nextQueues;
     PTR(uint) nextList;
     uint kinds;
 };

@@ -1,21 +1,23 @@
-// Counts, for each group of 64 places in a list, the flags of each kind: the first step of a compaction.
+// Counts the flags of each kind in each block of a list: the first step of a compaction. An invocation takes a block, so
+// that there is nothing to agree on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 
 ARGS(TallyArgs)
 
-shared uint counts[EYE_QUEUES];
-
 void main() {
-    Queue queue = args.queue.at[0];
-    if (gl_LocalInvocationIndex < EYE_QUEUES) counts[gl_LocalInvocationIndex] = 0u;
-    barrier();
-    uint flags = threadIndex() < queue.count ? args.flags.at[threadIndex()] : 0u;
-    for (uint kind = 0u; kind < args.kinds; kind++)
-        if ((flags >> kind & 1u) != 0u) atomicAdd(counts[kind], 1u);
-    barrier();
-    uint groups = (queue.count + GROUP - 1u) / GROUP;
-    if (gl_LocalInvocationIndex < args.kinds && groupIndex() < groups)
-        args.sums.at[gl_LocalInvocationIndex * groups + groupIndex()] = counts[gl_LocalInvocationIndex];
+    uint count = args.queue.at[0].count;
+    uint blocks = (count + COMPACTION_BLOCK - 1u) / COMPACTION_BLOCK;
+    uint block = threadIndex();
+    if (block >= blocks) return;
+
+    uint counts[EYE_QUEUES];
+    for (uint kind = 0u; kind < EYE_QUEUES; kind++) counts[kind] = 0u;
+    uint last = min((block + 1u) * COMPACTION_BLOCK, count);
+    for (uint place = block * COMPACTION_BLOCK; place < last; place++) {
+        uint flags = args.flags.at[place];
+        for (uint kind = 0u; kind < EYE_QUEUES; kind++) counts[kind] += flags >> kind & 1u;
+    }
+    for (uint kind = 0u; kind < args.kinds; kind++) args.sums.at[kind * blocks + block] = counts[kind];
 }

@@ -97,7 +97,7 @@ uvec2 sizeOf(const Imath::Box2i& window) {
 }
 
 Image imageOf(const Imf::Header& header) {
-    Image image{.size = sizeOf(header.dataWindow()), .channels = {}, .attributes = {}};
+    Image image{.size = sizeOf(header.dataWindow())};
     for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1)
             throw InputError(fmt::format("channel {} is subsampled; allowed is one value per pixel", i.name()));

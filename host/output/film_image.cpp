@@ -42,7 +42,7 @@ vec3 standardError(const Pixel& pixel, double n) {
 
 Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint passes) {
     assert(pixels.size() == size_t(size.x) * size.y);
-    Film film{pixels, {.size = size, .channels = {}, .attributes = {}}};
+    Film film{pixels, {.size = size}};
     film.addVector("", "RGB", beauty);
     for (uint layer = 0; layer < LAYER_COUNT; ++layer)
         film.addVector(LAYERS[layer], "RGB", [=](const Pixel& pixel) { return pixel.mean.layers[layer]; });

@@ -25,14 +25,14 @@ struct Statistics {
     double totalSeconds = 0;  // wall clock of the program
     double setupSeconds = 0;  // until the first pass
     double renderSeconds = 0; // all passes
-    std::vector<std::pair<std::string, double>> stages; // seconds; a name that occurs twice is summed
-    std::uint64_t rays = 0;                             // of every kind, over all passes
-    PhotonCounts global;
-    PhotonCounts caustic;
+    std::vector<std::pair<std::string, double>> stages{}; // seconds; a name that occurs twice is summed
+    std::uint64_t rays = 0;                               // of every kind, over all passes
+    PhotonCounts global{};
+    PhotonCounts caustic{};
     std::uint64_t deviceBytes = 0;
-    std::vector<std::pair<std::string, std::uint64_t>> buffers; // bytes; a name that occurs twice is summed
-    Features features;
-    std::vector<std::string> leftOut; // stages that this scene does not need
+    std::vector<std::pair<std::string, std::uint64_t>> buffers{}; // bytes; a name that occurs twice is summed
+    Features features{};
+    std::vector<std::string> leftOut{}; // stages that this scene does not need
     std::uint64_t nonfinite = 0;      // samples kept from the film
 };
 

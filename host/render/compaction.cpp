@@ -7,9 +7,10 @@ namespace vkpm {
 
 Compaction::Compaction(Gpu& gpu, const std::string& name, uint capacity, uint kindCount)
     : queues(gpu, name + " queues", kindCount), list(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
-      flags(gpu, name + " flags", capacity), kinds(kindCount), nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
-      sums(gpu, name + " sums", std::uint64_t(capacity / GROUP + 1) * kindCount + 1), tally(gpu, "tally"), scan(gpu, "scan"),
-      scatter(gpu, "compact"), enqueue(gpu, "enqueue") {}
+      flags(gpu, name + " flags", capacity), kinds(kindCount), blocks((capacity + COMPACTION_BLOCK - 1) / COMPACTION_BLOCK),
+      nextQueues(gpu, name + " queues", kindCount), nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
+      sums(gpu, name + " sums", std::uint64_t(blocks) * kindCount + 1), tally(gpu, "tally"), scan(gpu, "scan"),
+      scatter(gpu, "compact") {}
 
 void Compaction::start(uint count) {
     const uint groups = (count + GROUP - 1) / GROUP;
@@ -20,10 +21,10 @@ void Compaction::start(uint count) {
 }
 
 void Compaction::compact(Recording& recording) {
-    recording.run(tally, queues, 0, {queues, flags, sums, kinds});
-    recording.run(scan, GROUP, {sums, queues, kinds, GROUP});
-    recording.run(scatter, queues, 0, {queues, list, flags, sums, nextList, kinds});
-    recording.run(enqueue, GROUP, {queues, sums, kinds});
+    recording.run(tally, blocks, {queues, flags, sums, kinds});
+    recording.run(scan, GROUP, {sums, queues, kinds, COMPACTION_BLOCK});
+    recording.run(scatter, blocks, {queues, list, flags, sums, nextQueues, nextList, kinds});
+    std::swap(queues, nextQueues);
     std::swap(list, nextList);
 }
 

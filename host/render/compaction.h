@@ -22,12 +22,13 @@ public:
 
 private:
     uint kinds;
+    uint blocks; // of places, of a full list
+    Buffer<Queue> nextQueues;
     Buffer<uint> nextList;
     Buffer<uint> sums;
     Kernel<TallyArgs> tally;
     Kernel<ScanArgs> scan;
     Kernel<CompactArgs> scatter;
-    Kernel<EnqueueArgs> enqueue;
 };
 
 } // namespace vkpm
