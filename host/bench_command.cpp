@@ -1,2 +1,60 @@
+/// vkpm bench: how fast rays, sorting and memory are, each beside a yardstick measured in the same run.
+#include "bench/bench_scene.h"
+#include "bench/memory.h"
+#include "bench/rays.h"
 #include "commands.h"
-namespace vkpm { int bench(const Options&) { return 0; } }
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace vkpm {
+
+static std::vector<Measurement> measureAll(Gpu& gpu, const Scene& scene) {
+    std::vector<Measurement> all = measureRays(gpu, scene);
+    all.push_back(measureSort(gpu));
+    for (Measurement& copy : measureCopies(gpu)) all.push_back(std::move(copy));
+    return all;
+}
+
+static void printJson(const nlohmann::ordered_json& about, const std::vector<Measurement>& all) {
+    nlohmann::ordered_json object = about;
+    for (const Measurement& m : all)
+        object[m.name] = {
+            {"vkpm", m.vkpm}, {"yardstick", m.yardstick}, {"ratio", m.ratio}, {"unit", m.unit}, {"against", m.against}};
+    fmt::print("{}\n", object.dump(2));
+}
+
+// A number with three digits and the prefix of its unit.
+static std::string quantity(double value, const std::string& unit) {
+    if (value >= 1e9) return fmt::format("{:.2f} G{}", value * 1e-9, unit);
+    if (value >= 1e6) return fmt::format("{:.2f} M{}", value * 1e-6, unit);
+    return fmt::format("{:.2f} {}", value, unit);
+}
+
+static void printTable(const nlohmann::ordered_json& about, const std::vector<Measurement>& all) {
+    for (const auto& [key, value] : about.items())
+        fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    fmt::print("\n{:<14} {:>14} {:>14} {:>7}  {}\n", "", "vkpm", "yardstick", "ratio", "yardstick is");
+    for (const Measurement& m : all)
+        fmt::print("{:<14} {:>14} {:>14} {:>7.3f}  {}\n", m.name, quantity(m.vkpm, m.unit),
+                   quantity(m.yardstick, m.unit), m.ratio, m.against);
+    fmt::print("\nMedians of warm runs in pairs; ratio is vkpm over yardstick (of ms, less is better).\n"
+               "vkpm by the kernels' time stamps, yardsticks by the wall clock, on all threads.\n");
+}
+
+int bench(const Options& options) {
+    const Scene scene = options.scene.empty() ? benchScene() : loadScene(options.scene);
+    Gpu gpu(options.device);
+    const nlohmann::ordered_json about{{"device", gpu.info().name},
+                                       {"driver", gpu.info().driver},
+                                       {"threads", std::thread::hardware_concurrency()},
+                                       {"scene", scene.name},
+                                       {"triangles", scene.triangleCount},
+                                       {"spheres", scene.primitives.size() - scene.triangleCount}};
+    const std::vector<Measurement> all = measureAll(gpu, scene);
+    if (options.json) printJson(about, all);
+    else printTable(about, all);
+    return 0;
+}
+
+} // namespace vkpm

@@ -84,5 +84,6 @@ float nearestRadius(PhotonMap map, Query query, uint k) {
         if (below + 1u == k && bins[b] == 1u) break;
     }
     float farthest = farthestBelow(map, query, high);
-    return farthest > 0.0 ? sqrt(farthest) : sqrt(high);
+    const float inward = 0.999999; // the square of a rounded root may be greater, and the photon inside again
+    return inward * sqrt(farthest > 0.0 ? farthest : high);
 }

@@ -35,4 +35,5 @@ void main() {
     args.paths.at[photon] = Path(origin, direction, color, 0.0, 0u);
     args.list.at[photon] = photon;
     args.flags.at[photon] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
+    if (!(weight > 0.0)) atomicAdd(args.status.at[0].escaped, 1u);
 }

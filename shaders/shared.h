@@ -271,6 +271,7 @@ struct EmitArgs {
     PTR(Path) paths;
     PTR(uint) list;
     PTR(uint) flags;
+    PTR(Status) status;
     uint count;
     uint pass;
     uint seed;

@@ -1,10 +1,11 @@
-/// The hierarchy: nothing is lost, boxes hold what they should, and rays find what Embree and brute force find.
+/// The hierarchy: nothing is lost, boxes hold what they should, and rays find what brute force finds.
+#include "host_rays.h"
+#include "scene/box.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <embree3/rtcore.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <random>
@@ -12,80 +13,13 @@
 namespace vkpm {
 namespace {
 
-using glm::dvec3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Hit {
-    double t = infinity;
-    uint id = NONE;
-};
-
-/// Moeller & Trumbore (1997), in double precision.
-double intersectTriangle(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c) {
-    const dvec3 u = b - a, v = c - a, p = glm::cross(direction, v);
-    const double determinant = glm::dot(u, p);
-    if (determinant == 0) return infinity;
-    const dvec3 s = origin - a, q = glm::cross(s, u);
-    const double x = glm::dot(s, p) / determinant, y = glm::dot(direction, q) / determinant;
-    const double t = glm::dot(v, q) / determinant;
-    return x >= 0 && y >= 0 && x + y <= 1 && t > 0 ? t : infinity;
-}
-
-double intersectSphere(dvec3 origin, dvec3 direction, dvec3 center, double radius) {
-    const dvec3 f = origin - center;
-    const double a = glm::dot(direction, direction), b = glm::dot(f, direction), c = glm::dot(f, f) - radius * radius;
-    const double discriminant = b * b - a * c;
-    if (discriminant < 0) return infinity;
-    const double near = (-b - std::sqrt(discriminant)) / a, far = (-b + std::sqrt(discriminant)) / a;
-    return near > 0 ? near : far > 0 ? far : infinity;
-}
-
-double intersect(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c, bool sphere) {
-    return sphere ? intersectSphere(origin, direction, a, b.x) : intersectTriangle(origin, direction, a, b, c);
-}
-
-/// Whether a ray meets a box, with a margin for the rounding of double.
-bool meetsBox(dvec3 origin, dvec3 direction, vec3 low, vec3 high) {
-    if (low.x > high.x) return false;
-    double enter = 0, leave = infinity;
-    for (int i = 0; i < 3; ++i) {
-        const double one = (double{low[i]} - origin[i]) / direction[i], other = (double{high[i]} - origin[i]) / direction[i];
-        enter = std::max(enter, std::min(one, other) * (1 - 1e-12));
-        leave = std::min(leave, std::max(one, other) * (1 + 1e-12));
-    }
-    return enter <= leave;
-}
-
 struct Shapes {
     std::vector<Primitive> primitives;
     uint triangleCount = 0;
 };
 
-void updateHit(Hit& hit, double t, uint id) {
-    if (t < infinity && (t < hit.t || (t == hit.t && id < hit.id))) hit = {t, id};
-}
-
-Hit closestByTree(const Bvh& bvh, uint triangleCount, dvec3 origin, dvec3 direction) {
-    Hit hit;
-    const std::function<void(uint)> visit = [&](uint child) {
-        if ((child & LEAF) != 0) {
-            const uint first = child & LEAF_FIRST, count = ((child & ~LEAF) >> LEAF_SHIFT) + 1;
-            for (uint i = first; i < first + count; ++i) {
-                const Leaf& leaf = bvh.leaves.at(i);
-                updateHit(hit, intersect(origin, direction, leaf.a, leaf.b, leaf.c, leaf.id >= triangleCount), leaf.id);
-            }
-            return;
-        }
-        const Node& node = bvh.nodes.at(child);
-        if (meetsBox(origin, direction, node.leftLow, node.leftHigh)) visit(node.left);
-        if (meetsBox(origin, direction, node.rightLow, node.rightHigh)) visit(node.right);
-    };
-    visit(0);
-    return hit;
-}
-
-Hit closestOfAll(const Shapes& shapes, dvec3 origin, dvec3 direction) {
-    Hit hit;
+HostHit closestOfAll(const Shapes& shapes, dvec3 origin, dvec3 direction) {
+    HostHit hit;
     for (uint i = 0; i < shapes.primitives.size(); ++i) {
         const Primitive& p = shapes.primitives[i];
         updateHit(hit, intersect(origin, direction, p.a, p.b, p.c, i >= shapes.triangleCount), i);
@@ -106,7 +40,9 @@ void forEachLeaf(const Bvh& bvh, const std::function<void(const Leaf&, const Bou
             return;
         }
         const Node& node = bvh.nodes.at(child);
-        const auto clipped = [&](vec3 low, vec3 high) { return Bounds{glm::max(low, box.low), glm::min(high, box.high)}; };
+        const auto clipped = [&](vec3 low, vec3 high) {
+            return Bounds{glm::max(low, box.low), glm::min(high, box.high)};
+        };
         walk(node.left, clipped(node.leftLow, node.leftHigh));
         if (node.rightLow.x <= node.rightHigh.x) walk(node.right, clipped(node.rightLow, node.rightHigh));
     };
@@ -133,12 +69,14 @@ void expectNothingLost(const Shapes& shapes, const Bvh& bvh, double tolerance) {
             if (x + y > 1) x = 1 - x, y = 1 - y;
             dvec3 point = dvec3{p.a} + x * (dvec3{p.b} - dvec3{p.a}) + y * (dvec3{p.c} - dvec3{p.a});
             if (i >= shapes.triangleCount)
-                point = dvec3{p.a} + double{p.b.x} * glm::normalize(dvec3{normal(random), normal(random), normal(random)});
+                point =
+                    dvec3{p.a} + double{p.b.x} * glm::normalize(dvec3{normal(random), normal(random), normal(random)});
             const auto holds = [&](const Bounds& box) {
                 return glm::all(glm::lessThanEqual(dvec3{box.low} - tolerance, point)) &&
                        glm::all(glm::lessThanEqual(point, dvec3{box.high} + tolerance));
             };
-            ASSERT_TRUE(std::ranges::any_of(boxes[i], holds)) << "primitive " << i << " in " << boxes[i].size() << " leaves";
+            ASSERT_TRUE(std::ranges::any_of(boxes[i], holds))
+                << "primitive " << i << " in " << boxes[i].size() << " leaves";
         }
     }
 }
@@ -180,8 +118,8 @@ void expectSound(const Shapes& shapes, double scale) {
     for (int i = 0; i < 300; ++i) {
         const dvec3 origin = 3 * scale * dvec3{uniform(random), uniform(random), uniform(random)};
         const dvec3 aim = scale * dvec3{uniform(random), uniform(random), uniform(random)};
-        const Hit expected = closestOfAll(shapes, origin, aim - origin);
-        const Hit found = closestByTree(bvh, shapes.triangleCount, origin, aim - origin);
+        const HostHit expected = closestOfAll(shapes, origin, aim - origin);
+        const HostHit found = closestByTree(bvh, shapes.triangleCount, origin, aim - origin);
         ASSERT_EQ(found.t, expected.t) << "ray " << i;
         ASSERT_EQ(found.id, expected.id) << "ray " << i;
     }
@@ -192,6 +130,44 @@ TEST(Bvh, FindsWhatBruteForceFinds) {
         expectSound(randomShapes(2000, 0, scale), double{scale});
         expectSound(randomShapes(0, 500, scale), double{scale});
         expectSound(randomShapes(1000, 300, scale), double{scale});
+    }
+}
+
+TEST(Bvh, SplitBoxesHoldBothPartsTightly) {
+    const Shapes shapes = randomShapes(300, 300, 1);
+    std::mt19937 random{9};
+    std::uniform_real_distribution<double> uniform;
+    for (uint i = 0; i < 600; ++i) {
+        const Primitive& p = shapes.primitives[i];
+        const bool isSphere = i >= 300;
+        const Bounds box = boxOf(p, isSphere);
+        const int axis = static_cast<int>(i % 3);
+        const float plane = glm::mix(box.low[axis], box.high[axis], static_cast<float>(uniform(random)));
+        const SplitBoxes parts = splitBoxes(p, isSphere, box, axis, plane, 0);
+
+        // The boxes of many points of each part lie within its box and, the points being dense, nearly fill it.
+        Bounds found[2];
+        for (int k = 0; k <= 20000; ++k) {
+            const double along = k % 101 / 100.0, angle = 6.2831853 * k / 20001;
+            dvec3 point = glm::mix(dvec3{p.a}, dvec3{p.b}, along);
+            if (k % 3 == 1) point = glm::mix(dvec3{p.b}, dvec3{p.c}, along);
+            if (k % 3 == 2) point = glm::mix(dvec3{p.c}, dvec3{p.a}, along);
+            if (isSphere) {
+                const double z = 2 * along - 1, across = std::sqrt(1 - z * z);
+                point = dvec3{p.a} + double{p.b.x} * dvec3{across * std::cos(angle), across * std::sin(angle), z};
+            }
+            Bounds& part = found[point[axis] > double{plane}];
+            part = {glm::min(part.low, vec3{point}), glm::max(part.high, vec3{point})};
+        }
+        for (const auto& [part, points] : {std::pair{parts.below, found[0]}, std::pair{parts.above, found[1]}}) {
+            if (points.low.x > points.high.x) continue;
+            const vec3 slack = 1e-6f + 0.03f * (box.high - box.low);
+            ASSERT_TRUE(glm::all(glm::lessThanEqual(part.low, points.low + 1e-6f))) << i;
+            ASSERT_TRUE(glm::all(glm::greaterThanEqual(part.high, points.high - 1e-6f))) << i;
+            if (isSphere) continue; // a cap's sample misses its rim
+            ASSERT_TRUE(glm::all(glm::lessThanEqual(points.low - part.low, slack))) << i;
+            ASSERT_TRUE(glm::all(glm::lessThanEqual(part.high - points.high, slack))) << i;
+        }
     }
 }
 
@@ -247,77 +223,6 @@ TEST(Bvh, IsTheSameEachTime) {
 TEST(Bvh, RefusesBoxesThatOverflow) {
     const std::vector<Primitive> wide{sphere({3e38f, 0, 0}, 1e38f)};
     EXPECT_THROW(buildBvh(wide, 0), InputError);
-}
-
-/// An Embree scene of the triangles of ours.
-struct EmbreeScene {
-    RTCDevice device = rtcNewDevice("threads=1");
-    RTCScene scene = rtcNewScene(device);
-
-    explicit EmbreeScene(const Scene& source) {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* points = static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                  sizeof(vec3), 3 * source.triangleCount));
-        auto* corners = static_cast<uint*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(uint), source.triangleCount));
-        for (uint i = 0; i < source.triangleCount; ++i) {
-            const Primitive& p = source.primitives[i];
-            for (uint k = 0; k < 3; ++k) {
-                points[3 * i + k] = std::array{p.a, p.b, p.c}[k];
-                corners[3 * i + k] = 3 * i + k;
-            }
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        rtcCommitScene(scene);
-    }
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
-    ~EmbreeScene() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
-
-    double closest(dvec3 origin, dvec3 direction) const {
-        const vec3 o{origin}, d{direction};
-        RTCRayHit ray{};
-        ray.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), 0xffffffffu, 0, 0};
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene, &context, &ray);
-        return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? infinity : double{ray.ray.tfar};
-    }
-};
-
-TEST(Bvh, FindsWhatEmbreeFindsInShippedScenes) {
-    std::mt19937 random{11};
-    std::uniform_real_distribution<double> uniform;
-    for (const char* name : {"box.json", "diffuse_box.json", "ring.json", "glass.json", "pool.json"}) {
-        const Scene scene = loadScene(std::filesystem::path{VKPM_SCENES} / name);
-        const std::vector<Primitive> triangles(scene.primitives.begin(), scene.primitives.begin() + scene.triangleCount);
-        const Bvh bvh = buildBvh(triangles, scene.triangleCount);
-        const EmbreeScene embree{scene};
-        const auto anywhere = [&] {
-            const dvec3 where{uniform(random), uniform(random), uniform(random)};
-            return dvec3{scene.bounds.low} + where * dvec3{scene.bounds.high - scene.bounds.low};
-        };
-
-        // Rays that graze an edge may go either way in float.
-        int differences = 0, hits = 0;
-        for (int i = 0; i < 10000; ++i) {
-            const dvec3 origin{vec3{anywhere()}};
-            const dvec3 direction{vec3{anywhere() - origin}};
-            const double expected = embree.closest(origin, direction);
-            const double found = closestByTree(bvh, scene.triangleCount, origin, direction).t;
-            hits += found < infinity;
-            differences += found != expected && !(std::abs(found - expected) <= 1e-4 * std::max(1.0, expected));
-        }
-        EXPECT_GT(hits, 5000) << name;
-        EXPECT_LE(differences, 3) << name;
-    }
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 /// The scene loader: what it makes of cameras, materials, shapes, transforms, meshes and lights.
-#include "scene/scene.h"
 #include "scene/bounding_sphere.h"
+#include "scene/scene.h"
 #include "scene_text.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,9 +32,7 @@ json withShape(const json& shape) {
     return scene;
 }
 
-json mesh(const std::string& name) {
-    return {{"type", "mesh"}, {"file", data(name).string()}, {"material", "grey"}};
-}
+json mesh(const std::string& name) { return {{"type", "mesh"}, {"file", data(name).string()}, {"material", "grey"}}; }
 
 /// Six times the volume that triangles enclose; positive if they face outward.
 double signedVolume(const Scene& scene, std::size_t count) {
@@ -134,9 +132,11 @@ TEST(Scene, MaterialsKeepTheirKindAndTheRatioOfIndices) {
 }
 
 TEST(Scene, TransformsAreAppliedInOrder) {
-    const json steps = json::parse(R"([{"scale": 2}, {"rotate": {"axis": [0, 0, 3], "degrees": 90}}, {"translate": [5, 0, 0]},
+    const json steps =
+        json::parse(R"([{"scale": 2}, {"rotate": {"axis": [0, 0, 3], "degrees": 90}}, {"translate": [5, 0, 0]},
                                        {"matrix": [1, 0, 0, 0,  0, 1, 0, 10,  0, 0, 1, 0,  0, 0, 0, 1]}])");
-    const json sphere{{"type", "sphere"}, {"center", {1, 0, 0}}, {"radius", 0.5}, {"material", "steel"}, {"transform", steps}};
+    const json sphere{
+        {"type", "sphere"}, {"center", {1, 0, 0}}, {"radius", 0.5}, {"material", "steel"}, {"transform", steps}};
     const Scene scene = loadJson(withShape(sphere));
     expectNear(scene.primitives.back().a, {5, 12, 0});
     EXPECT_NEAR(scene.primitives.back().b.x, 1, 1e-6);
@@ -153,7 +153,8 @@ TEST(Scene, MirroredShapesKeepTheirOutside) {
         for (std::size_t i = 0; i < 12; ++i)
             expectNear(scene.normals[scene.primitives[i].normals].b, normalOf(scene.primitives[i]));
 
-        json floor{{"type", "rectangle"}, {"corner", {0, -1, 0}}, {"edges", {{0, 0, 1}, {1, 0, 0}}}, {"material", "grey"}};
+        json floor{
+            {"type", "rectangle"}, {"corner", {0, -1, 0}}, {"edges", {{0, 0, 1}, {1, 0, 0}}}, {"material", "grey"}};
         floor["transform"] = cube["transform"];
         const Primitive p = loadJson(withShape(floor)).primitives[0];
         EXPECT_EQ(normalOf(p).y, p.a.y < 0 ? 1.0f : -1.0f) << scale; // away from y = -1, towards the origin
@@ -261,7 +262,8 @@ TEST(BoundingSphere, HoldsAllPointsAndIsSmall) {
     for (const float scale : {1e-9f, 1.0f, 1e9f}) {
         std::vector<vec3> points;
         for (int i = 0; i < 5000; ++i)
-            points.push_back(scale * (vec3{5, 0, -3} + glm::normalize(vec3{normal(random), normal(random), normal(random)})));
+            points.push_back(scale *
+                             (vec3{5, 0, -3} + glm::normalize(vec3{normal(random), normal(random), normal(random)})));
         const Target sphere = boundingSphere(points);
         for (const vec3 point : points) ASSERT_LE(glm::distance(point, sphere.center), sphere.radius);
         EXPECT_LT(sphere.radius, 1.03f * scale);

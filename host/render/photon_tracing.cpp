@@ -40,7 +40,7 @@ PhotonLedger PhotonTracing::attempt(uint pass) {
     Recording recording(gpu);
     recording.clear(status);
     compaction.start(count);
-    recording.run(emit, count, {scene.address, paths, compaction.list, compaction.flags, count, pass, seed, uint(kind)});
+    recording.run(emit, count, {scene.address, paths, compaction.list, compaction.flags, status, count, pass, seed, uint(kind)});
     compaction.compact(recording);
 
     // Batches of bounces, until the device says that no photon is left.

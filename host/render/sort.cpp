@@ -18,6 +18,7 @@ void Sort::reserve(std::uint64_t count) {
 }
 
 void Sort::sort(Recording& recording, uint count, uint bits) {
+    if (count == 0) return; // there may be no buffers
     const Queue whole{.count = count};
     queue.upload(std::span(&whole, 1));
     const std::uint64_t threads = std::uint64_t((count + SORT_BLOCK - 1) / SORT_BLOCK) * GROUP;

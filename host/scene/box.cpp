@@ -37,7 +37,8 @@ SplitBoxes splitTriangle(const dvec3 (&points)[3], int axis, double position) {
     for (int i = 0; i < 3; ++i) {
         const dvec3 p = points[i];
         const dvec3 q = points[(i + 1) % 3];
-        for (Bounds* box : {p[axis] <= position ? &boxes.below : nullptr, p[axis] >= position ? &boxes.above : nullptr}) {
+        for (Bounds* box :
+             {p[axis] <= position ? &boxes.below : nullptr, p[axis] >= position ? &boxes.above : nullptr}) {
             if (box == nullptr) continue;
             box->low = glm::min(box->low, roundedDown(p));
             box->high = glm::max(box->high, roundedUp(p));

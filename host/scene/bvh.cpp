@@ -72,8 +72,8 @@ void splitPrimitive(const RTCBuildPrimitive* primitive, unsigned int axis, float
     const Bounds box{{primitive->lower_x, primitive->lower_y, primitive->lower_z},
                      {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
     const bool sphere = primitive->primID >= input.triangleCount;
-    const SplitBoxes parts = splitBoxes(input.primitives[primitive->primID], sphere, box, static_cast<int>(axis),
-                                        position, input.exponent);
+    const SplitBoxes parts =
+        splitBoxes(input.primitives[primitive->primID], sphere, box, static_cast<int>(axis), position, input.exponent);
     *below = toEmbree(parts.below);
     *above = toEmbree(parts.above);
 }
@@ -81,15 +81,14 @@ void splitPrimitive(const RTCBuildPrimitive* primitive, unsigned int axis, float
 // ---- From Embree's tree to arrays ----
 
 class Flattening {
-  public:
+public:
     Flattening(std::span<const Primitive> all, Bvh& result) : primitives{all}, bvh{result} {}
 
     /// Appends a tree and returns its root as a child: the index of a node, or a leaf.
     uint append(const BuildNode& node) {
         if (node.count > 0) return appendLeaf(node);
         const auto index = static_cast<uint>(bvh.nodes.size());
-        bvh.nodes.push_back(
-            {node.boxes[0].low, node.boxes[0].high, node.boxes[1].low, node.boxes[1].high, 0, 0});
+        bvh.nodes.push_back({node.boxes[0].low, node.boxes[0].high, node.boxes[1].low, node.boxes[1].high, 0, 0});
         bvh.nodes[index].left = append(*node.children[0]);
         bvh.nodes[index].right = append(*node.children[1]);
         return index;
@@ -103,7 +102,7 @@ class Flattening {
         bvh.nodes.push_back({box.low, box.high, missing.low, missing.high, child, child});
     }
 
-  private:
+private:
     uint appendLeaf(const BuildNode& leaf) {
         const auto first = static_cast<uint>(bvh.leaves.size());
         if (first > LEAF_FIRST - largestLeaf)

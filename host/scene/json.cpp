@@ -18,7 +18,7 @@ constexpr std::size_t deepest = 64; // levels of nesting; a scene has 6
 
 /// Builds the tree from the parser's events.
 class TreeBuilder : public nlohmann::json_sax<json> {
-  public:
+public:
     json root;
 
     TreeBuilder(const fs::path& path, const std::string& whole) : file{path}, text{whole} {}
@@ -46,7 +46,8 @@ class TreeBuilder : public nlohmann::json_sax<json> {
         // nlohmann names itself and the place before the message; the place is given anew, counted from the text.
         std::string message = error.what();
         const std::size_t column = message.find("column ");
-        const std::size_t start = message.find(column == std::string::npos ? "] " : ": ", column == std::string::npos ? 0 : column);
+        const std::size_t start =
+            message.find(column == std::string::npos ? "] " : ": ", column == std::string::npos ? 0 : column);
         if (start != std::string::npos) message = message.substr(start + 2);
 
         const std::string before = text.substr(0, position == 0 ? 0 : position - 1);
@@ -56,7 +57,7 @@ class TreeBuilder : public nlohmann::json_sax<json> {
                                      before.size() - lineStart + 1, message));
     }
 
-  private:
+private:
     json* place(json value) {
         if (containers.empty()) return &(root = std::move(value));
         if (containers.back()->is_array()) return &containers.back()->emplace_back(std::move(value));

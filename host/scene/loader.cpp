@@ -21,14 +21,16 @@ View readView(Reader camera) {
     view.target = targetReader.vector();
     const auto up = camera.find("up");
     if (up) view.up = up->vector();
-    if (const auto degrees = camera.find("fieldOfView")) view.fieldOfView = glm::radians(degrees->number({0, 179, true}));
+    if (const auto degrees = camera.find("fieldOfView"))
+        view.fieldOfView = glm::radians(degrees->number({0, 179, true}));
     camera.finish();
 
     if (view.target == view.origin) targetReader.fail("the target is the origin", "let the camera look somewhere else");
     const dvec3 forward = glm::normalize(dvec3{view.target} - dvec3{view.origin});
     const double upLength = glm::length(dvec3{view.up});
     if (!(glm::length(glm::cross(forward, dvec3{view.up})) > 1e-6 * upLength))
-        (up ? *up : targetReader).fail("up has length 0 or points along the view", "give an \"up\" that leans away from it");
+        (up ? *up : targetReader)
+            .fail("up has length 0 or points along the view", "give an \"up\" that leans away from it");
     return view;
 }
 
@@ -37,7 +39,8 @@ void readFilm(Reader film, Settings& settings) {
         const std::vector<Reader> sides = size->elements(2, 2, "an array of 2 integers, [width, height]");
         settings.size = {sides[0].integer(1, 65536), sides[1].integer(1, 65536)};
         if (std::uint64_t{settings.size.x} * settings.size.y > (1u << 28u))
-            size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y), "allowed are 2^28 in all");
+            size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y),
+                       "allowed are 2^28 in all");
     }
     if (const auto exposure = film.find("exposure")) settings.exposure = exposure->number({-100, 100});
     film.finish();

@@ -73,7 +73,8 @@ Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness) {
     config.vertex_color = false;
     tinyobj::ObjReader obj;
     if (!obj.ParseFromString(text, "", config))
-        throw InputError(fmt::format("{}: {}; allowed are Wavefront OBJ files of polygons", file.string(), obj.Error()));
+        throw InputError(
+            fmt::format("{}: {}; allowed are Wavefront OBJ files of polygons", file.string(), obj.Error()));
 
     const tinyobj::attrib_t& attributes = obj.GetAttrib();
     const std::vector<Corners> triangles = triangleCorners(obj);

@@ -21,7 +21,7 @@ std::string_view takeWord(std::string_view& line) {
 
 /// Checks one file; indices count from 1, or back from the latest element if negative.
 class ObjCheck {
-  public:
+public:
     explicit ObjCheck(const std::filesystem::path& path) : file{path} {}
 
     void run(std::string_view text) {
@@ -31,12 +31,14 @@ class ObjCheck {
             checkLine(text.substr(0, end));
             text.remove_prefix(std::min(end + 1, text.size()));
         }
-        if (faces == 0) throw InputError(fmt::format("{}: the mesh has no faces; lines of the form \"f 1 2 3\" are needed", file.string()));
+        if (faces == 0)
+            throw InputError(
+                fmt::format("{}: the mesh has no faces; lines of the form \"f 1 2 3\" are needed", file.string()));
         checkLargest(vertexUse, vertices, "vertex");
         checkLargest(normalUse, normals, "normal");
     }
 
-  private:
+private:
     struct Use {
         long index = 0; // the largest
         long line = 0;
@@ -73,7 +75,8 @@ class ObjCheck {
 
     void checkFace(std::string_view rest) {
         long corners = 0;
-        for (std::string_view word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest), ++corners) {
+        for (std::string_view word = takeWord(rest); !word.empty() && word[0] != '#';
+             word = takeWord(rest), ++corners) {
             const std::string_view whole = word;
             checkIndex(takeIndex(word), whole, vertices, vertexUse);
             takeIndex(word); // of texture coordinates, which are not used
@@ -102,7 +105,8 @@ class ObjCheck {
 
     void checkLargest(const Use& use, long count, std::string_view kind) const {
         if (use.index > count)
-            fail(use.line, fmt::format("a face refers to {} {}", kind, use.index), fmt::format("the file has {}", count));
+            fail(use.line, fmt::format("a face refers to {} {}", kind, use.index),
+                 fmt::format("the file has {}", count));
     }
 
     const std::filesystem::path& file;

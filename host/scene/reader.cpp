@@ -69,8 +69,7 @@ std::string quotedList(const std::vector<std::string>& words) {
 }
 
 void Reader::fail(std::string_view found, std::string_view allowed) const {
-    throw InputError(
-        fmt::format("{}: {}: {}; {}", file.string(), pointer.empty() ? "/" : pointer, found, allowed));
+    throw InputError(fmt::format("{}: {}: {}; {}", file.string(), pointer.empty() ? "/" : pointer, found, allowed));
 }
 
 void Reader::warn(std::vector<std::string>& warnings, std::string_view message) const {
@@ -124,8 +123,9 @@ void Reader::finish() const {
 void Reader::failUnknown(std::string_view key) const {
     const std::string nearest = nearestWord(key, known);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
-    child(key, *value).fail(fmt::format("unknown key \"{}\"", shortened(std::string{key})),
-                            fmt::format("{}known here: {}", hint, quotedList(known)));
+    child(key, *value)
+        .fail(fmt::format("unknown key \"{}\"", shortened(std::string{key})),
+              fmt::format("{}known here: {}", hint, quotedList(known)));
 }
 
 std::vector<Reader> Reader::elements(std::size_t low, std::size_t high, std::string_view allowed) const {

@@ -35,7 +35,7 @@ nlohmann::json parseJson(const std::filesystem::path& file, const std::string& t
 
 /// A place in a JSON value. Every function that reads throws InputError, "file: /json/pointer: found; allowed".
 class Reader {
-  public:
+public:
     Reader(std::filesystem::path path, const nlohmann::json& root) : file{std::move(path)}, value{&root} {}
 
     [[noreturn]] void fail(std::string_view found, std::string_view allowed) const;
@@ -63,7 +63,7 @@ class Reader {
     std::string describe() const; // the value found, in words
     const std::filesystem::path& path() const { return file; }
 
-  private:
+private:
     Reader child(std::string_view key, const nlohmann::json& member) const;
     const nlohmann::json& object() const;
     [[noreturn]] void failUnknown(std::string_view key) const;

@@ -6,20 +6,20 @@
 namespace vkpm {
 
 struct Settings {
-    uvec2 size{512, 512};                  // pixels
-    uint passes = 16;                      //
-    uint photons = 200'000;                // emitted into the global map per pass
-    uint causticPhotons = 100'000;         // aimed at specular shapes per pass
-    std::optional<float> radius;           // of the global gather, world units; by the size of the scene if absent
-    std::optional<float> causticRadius;    // likewise of the caustic gather
-    uint nearest = 0;                      // gather the k nearest photons within the radius; 0: all within it
-    uint kernel = KERNEL_CONSTANT;         // KERNEL_...
-    bool schlick = false;                  // Schlick's Fresnel in place of the exact one
-    uint seed = 0;                         //
-    uint integrator = INTEGRATOR_PHOTON;   // INTEGRATOR_...
-    bool showCaustic = false;              // photon-map: the caustic map in place of the global one
-    bool showPoints = false;               // photon-map: photons as points in place of the estimate
-    float exposure = 0;                    // stops, for the PNG alone
+    uvec2 size{512, 512};                // pixels
+    uint passes = 16;                    //
+    uint photons = 200'000;              // emitted into the global map per pass
+    uint causticPhotons = 100'000;       // aimed at specular shapes per pass
+    std::optional<float> radius;         // of the global gather, world units; by the size of the scene if absent
+    std::optional<float> causticRadius;  // likewise of the caustic gather
+    uint nearest = 0;                    // gather the k nearest photons within the radius; 0: all within it
+    uint kernel = KERNEL_CONSTANT;       // KERNEL_...
+    bool schlick = false;                // Schlick's Fresnel in place of the exact one
+    uint seed = 0;                       //
+    uint integrator = INTEGRATOR_PHOTON; // INTEGRATOR_...
+    bool showCaustic = false;            // photon-map: the caustic map in place of the global one
+    bool showPoints = false;             // photon-map: photons as points in place of the estimate
+    float exposure = 0;                  // stops, for the PNG alone
 };
 
 } // namespace vkpm

@@ -39,9 +39,12 @@ vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
 void ShapeLoader::add(Reader shape) {
     (void)shape.find("name");
     switch (shape.at("type").choice({"sphere", "rectangle", "mesh"})) {
-    case 0: return addSphere(shape);
-    case 1: return addRectangle(shape);
-    default: return addMesh(shape);
+    case 0:
+        return addSphere(shape);
+    case 1:
+        return addRectangle(shape);
+    default:
+        return addMesh(shape);
     }
 }
 
@@ -75,7 +78,8 @@ uint ShapeLoader::readMaterial(Reader& shape, bool emits) {
     const std::string nearest = nearestWord(name, names);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
     reader->fail(fmt::format("unknown material \"{}\"", name),
-                 names.empty() ? "the scene has no \"materials\"" : fmt::format("{}known: {}", hint, quotedList(names)));
+                 names.empty() ? "the scene has no \"materials\""
+                               : fmt::format("{}known: {}", hint, quotedList(names)));
 }
 
 uint ShapeLoader::blackMaterial() {
@@ -99,7 +103,8 @@ void ShapeLoader::addSphere(Reader& shape) {
 
     const std::optional<double> scale = transform.uniformScale();
     if (!scale)
-        shape.at("transform").fail("found a non-uniform scale of a sphere", "scale it uniformly, or use a mesh instead");
+        shape.at("transform")
+            .fail("found a non-uniform scale of a sphere", "scale it uniformly, or use a mesh instead");
     const double scaled = *scale * double{radius};
     const vec3 a = transform.point(center);
     const vec3 b{static_cast<float>(scaled), 0, 0};
@@ -152,8 +157,8 @@ void ShapeLoader::addMesh(Reader& shape) {
     const std::size_t dropped = mesh.triangles.size() - added;
     if (added == 0) fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
     if (dropped > 0)
-        shape.warn(scene.warnings, fmt::format("{} of {} triangles have no area and were dropped", dropped,
-                                               mesh.triangles.size()));
+        shape.warn(scene.warnings,
+                   fmt::format("{} of {} triangles have no area and were dropped", dropped, mesh.triangles.size()));
 
     std::vector<vec3> points;
     for (std::size_t i = first; i < scene.primitives.size(); ++i)
@@ -196,8 +201,7 @@ void ShapeLoader::addFlat(const Reader& shape, const Primitive& triangle) {
 
 uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area) {
     if (surface.radiance == vec3{0}) return NONE;
-    scene.lights.push_back(
-        {a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 0});
+    scene.lights.push_back({a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 0});
     return static_cast<uint>(scene.lights.size() - 1);
 }
 

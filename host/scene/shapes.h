@@ -11,7 +11,7 @@ namespace vkpm {
 
 /// Fills the primitives, normals, lights and targets of a scene, shape by shape.
 class ShapeLoader {
-  public:
+public:
     /// `indices` maps names to indices into `scene.materials`.
     ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
 
@@ -20,7 +20,7 @@ class ShapeLoader {
     /// Appends the spheres, which follow all triangles.
     void finish();
 
-  private:
+private:
     struct Surface {
         uint material = 0;
         vec3 radiance{0};

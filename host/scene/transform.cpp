@@ -40,8 +40,7 @@ dmat4 readStep(Reader step) {
         step.fail(step.describe() + (step.keys().empty() ? " without keys" : " with several keys"),
                   "a step has one of \"translate\", \"rotate\", \"scale\" or \"matrix\"");
     dmat4 matrix{1};
-    if (const auto translate = step.find("translate"))
-        matrix = glm::translate(dmat4{1}, dvec3{translate->vector()});
+    if (const auto translate = step.find("translate")) matrix = glm::translate(dmat4{1}, dvec3{translate->vector()});
     if (const auto rotate = step.find("rotate")) matrix = readRotation(*rotate);
     if (const auto scale = step.find("scale")) matrix = readScale(*scale);
     if (const auto rows = step.find("matrix")) matrix = readMatrix(*rows);

@@ -8,18 +8,18 @@ namespace vkpm {
 
 /// An invertible affine map in double precision; what it yields is rounded to float once.
 class Transform {
-  public:
+public:
     Transform() = default;
     /// The steps of "transform" applied in order. Throws InputError for a singular or overflowing one.
     explicit Transform(const Reader& steps);
 
     vec3 point(vec3 p) const;
-    vec3 direction(vec3 d) const;     // of an edge, with its length
-    glm::dvec3 normal(vec3 n) const;  // on the same side of the surface as before, not of unit length
-    bool mirrors() const;             // whether it turns right hands into left ones
+    vec3 direction(vec3 d) const;               // of an edge, with its length
+    glm::dvec3 normal(vec3 n) const;            // on the same side of the surface as before, not of unit length
+    bool mirrors() const;                       // whether it turns right hands into left ones
     std::optional<double> uniformScale() const; // the factor of all lengths, if there is one
 
-  private:
+private:
     glm::dmat4 matrix{1};
 };
 

@@ -1,0 +1,81 @@
+/// The speed of rays: the kernels of a render beside Embree's queries for single rays.
+#include "bench/rays.h"
+#include "gpu/recording.h"
+#include "render/device_scene.h"
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+namespace vkpm {
+namespace {
+
+/// A queue of all elements of a list that is 0, 1, 2 ...
+struct WholeQueue {
+    WholeQueue(Gpu& gpu, std::size_t count) : queue(gpu, "bench queue", 1), list(gpu, "bench list", count) {
+        const Queue whole{.count = static_cast<uint>(count)};
+        queue.upload(std::span(&whole, 1));
+        std::vector<uint> identity(count);
+        std::iota(identity.begin(), identity.end(), 0);
+        list.upload(identity);
+    }
+    Buffer<Queue> queue;
+    Buffer<uint> list;
+};
+
+template <class Work> void onAllThreads(std::size_t count, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); i++) work(i);
+    });
+}
+
+Measurement measureClosest(Gpu& gpu, const Scene& scene, const UploadedScene& uploaded, const EmbreeScene& embree,
+                           const std::string& name, const std::vector<Path>& rays) {
+    const Buffer<Path> paths(gpu, "bench paths", rays);
+    const Buffer<Hit> hits(gpu, "bench hits", rays.size());
+    const WholeQueue all(gpu, rays.size());
+    const Kernel<TraceArgs> trace(gpu, "trace", sceneFeatures(scene, scene.settings));
+    const auto kernel = [&] {
+        Recording recording(gpu);
+        recording.run(trace, rays.size(), {uploaded.address, paths, hits, all.queue, all.list});
+        recording.submit();
+    };
+    std::vector<Hit> found(rays.size());
+    const auto host = [&] {
+        onAllThreads(rays.size(), [&](std::size_t i) { found[i] = embree.closest(rays[i].origin, rays[i].direction); });
+    };
+    return asRate(name, "rtcIntersect1", "rays/s", double(rays.size()),
+                  measurePairs([&] { return kernelSeconds(gpu, kernel); }, [&] { return wallSeconds(host); }));
+}
+
+Measurement measureShadow(Gpu& gpu, const Scene& scene, const UploadedScene& uploaded, const EmbreeScene& embree,
+                          const std::vector<ShadowRay>& rays) {
+    const Buffer<ShadowRay> shadowRays(gpu, "bench shadow rays", rays);
+    const Buffer<Sample> samples(gpu, "bench samples", rays.size());
+    const WholeQueue all(gpu, rays.size());
+    const Kernel<ShadowArgs> shadow(gpu, "shadow", sceneFeatures(scene, scene.settings));
+    const auto kernel = [&] {
+        Recording recording(gpu);
+        recording.run(shadow, rays.size(), {uploaded.address, shadowRays, samples, all.queue, all.list});
+        recording.submit();
+    };
+    std::vector<vec3> direct(rays.size());
+    const auto host = [&] {
+        onAllThreads(rays.size(), [&](std::size_t i) {
+            if (!embree.occluded(rays[i].origin, rays[i].target)) direct[i] += rays[i].radiance;
+        });
+    };
+    return asRate("shadow_rays", "rtcOccluded1", "rays/s", double(rays.size()),
+                  measurePairs([&] { return kernelSeconds(gpu, kernel); }, [&] { return wallSeconds(host); }));
+}
+
+} // namespace
+
+std::vector<Measurement> measureRays(Gpu& gpu, const Scene& scene) {
+    const EmbreeScene embree(scene);
+    const BenchRays rays = makeRays(scene, embree);
+    const UploadedScene uploaded(gpu, scene, scene.settings.size);
+    return {measureClosest(gpu, scene, uploaded, embree, "primary_rays", rays.primary),
+            measureClosest(gpu, scene, uploaded, embree, "bounce_rays", rays.bounce),
+            measureShadow(gpu, scene, uploaded, embree, rays.shadow)};
+}
+
+} // namespace vkpm

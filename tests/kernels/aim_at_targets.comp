@@ -1,0 +1,16 @@
+// Directions toward the targets of a scene, and their weights.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "light.glsl"
+#include "targets.glsl"
+
+vec4 aim(AimCase x) {
+    vec3 direction;
+    float weight = aimAtTargets(args.scene.at[0], LightPoint(x.position, vec3(0.0), x.normal), x.u, x.choice, direction);
+    return vec4(direction, weight);
+}
+
+MAP(AimCase, vec4, aim(x))

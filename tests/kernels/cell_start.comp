@@ -1,0 +1,8 @@
+// Where keys start among the photons of a map.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "random.glsl"
+#include "grid.glsl"
+
+MAP(uint, uint, args.photons.cells.at[x])

@@ -1,0 +1,8 @@
+// Lights chosen by numbers in [0, 1).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "sampling.glsl"
+#include "light.glsl"
+
+MAP(float, uint, chooseLight(args.scene.at[0], x))

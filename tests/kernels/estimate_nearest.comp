@@ -1,0 +1,10 @@
+// Density estimates from the k nearest photons; k stands in place of the layer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "random.glsl"
+#include "frame.glsl"
+#include "grid.glsl"
+#include "density.glsl"
+
+MAP(Query, vec3, estimateWithin(args.photons, x, nearestRadius(args.photons, x, x.layer)))

@@ -1,0 +1,9 @@
+// Fresnel reflectance: (eta, cosine).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+#include "material.glsl"
+
+MAP(vec2, float, fresnel(x.x, x.y))

@@ -1,0 +1,15 @@
+// Rays that leave a sphere, against that sphere.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "intersect.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+
+Leaving again(LeavingCase x) {
+    Surface surface = sphereSurface(x.primitive, x.along);
+    vec3 origin = leave(surface, x.direction);
+    return Leaving(origin, surface.normal, intersectSphere(makeRay(origin, x.direction), x.primitive.a, x.primitive.b.x));
+}
+
+MAP(LeavingCase, Leaving, again(x))

@@ -1,0 +1,8 @@
+// Photons in the order of the map.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "random.glsl"
+#include "grid.glsl"
+
+MAP(uint, Photon, args.photons.photons.at[x])

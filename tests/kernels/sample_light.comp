@@ -1,0 +1,10 @@
+// Points of the first light of a scene.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "sampling.glsl"
+#include "light.glsl"
+
+LightValues values(LightPoint p) { return LightValues(p.position, p.magnitude, p.normal); }
+
+MAP(vec2, LightValues, values(sampleLight(args.scene.at[0].lights.at[0], x)))

@@ -1,0 +1,15 @@
+// Specular scattering.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+#include "material.glsl"
+
+ScatterValues scatter(ScatterCase x) {
+    Surface surface = Surface(vec3(0.0), vec3(0.0), x.normal, x.shading, 0u, NONE);
+    Scattering s = scatterSpecular(x.material, surface, x.direction, x.u);
+    return ScatterValues(s.direction, s.weight, s.normal, s.radianceScale);
+}
+
+MAP(ScatterCase, ScatterValues, scatter(x))

@@ -1,0 +1,7 @@
+// Unit vectors from 32 bits.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "frame.glsl"
+
+MAP(uint, vec3, unpackUnit(x))

@@ -1,0 +1,157 @@
+/// Lights: chosen by their probabilities, sampled uniformly over area, seen from the sides that emit.
+#include "judge.h"
+#include "scene_on_device.h"
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+using glm::dvec3;
+
+const vec3 white{1, 1, 1};
+
+Light rectangle(vec3 a, vec3 u, vec3 v) {
+    return {.a = a, .u = u, .v = v, .radiance = white, .kind = LIGHT_RECTANGLE, .area = glm::length(glm::cross(u, v)), .probability = 1};
+}
+
+TestScene sceneWith(std::vector<Light> lights, std::vector<float> cdf = {1}) {
+    Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
+    scene.lights = std::move(lights);
+    scene.lightCdf = std::move(cdf);
+    return TestScene(scene);
+}
+
+std::vector<LightValues> sampleLight(const Light& light, const std::vector<vec2>& us) {
+    const TestScene scene = sceneWith({light});
+    return map<LightValues>("sample_light", us, {}, scene.context());
+}
+
+// How often each light is chosen by the numbers (i + 0.5) / count: exactly its probability, to one at each end of its part.
+void expectFrequencies(const std::vector<float>& cdf, uint hasManyLights) {
+    const uint count = 1u << 20;
+    std::vector<float> us;
+    for (uint i = 0; i < count; i++) us.push_back((float(i) + 0.5f) / float(count));
+    for (const float end : cdf)
+        for (const float u : {end, std::nextafter(end, 0.0f)})
+            if (u < 1) us.push_back(u);
+    const TestScene scene = sceneWith(std::vector<Light>(cdf.size(), rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})), cdf);
+    const auto chosen = map<uint>("choose_light", us, {.hasManyLights = hasManyLights}, scene.context());
+    std::vector<double> counts(cdf.size());
+    for (std::size_t i = 0; i < us.size(); i++) {
+        ASSERT_LT(chosen[i], cdf.size());
+        const float low = chosen[i] == 0 ? 0 : cdf[chosen[i] - 1];
+        ASSERT_TRUE(low <= us[i] && us[i] < cdf[chosen[i]]) << us[i] << " chose " << chosen[i];
+        if (i < count) counts[chosen[i]]++;
+    }
+    for (std::size_t i = 0; i < cdf.size(); i++)
+        ASSERT_NEAR(counts[i], (double{cdf[i]} - (i == 0 ? 0 : double{cdf[i - 1]})) * count, 1.001) << i;
+}
+
+TEST(Light, IsChosenByItsProbability) {
+    expectFrequencies({1}, 0);
+    expectFrequencies({1}, 1);
+    expectFrequencies({0.3f, 1}, 1);
+    // The first, the last and others between have no probability.
+    expectFrequencies({0, 0.25f, 0.25f, 0.25f, 0.5f, 1, 1}, 1);
+    Random random(1);
+    std::vector<double> weights;
+    for (int i = 0; i < 1000; i++) weights.push_back(i % 7 == 0 ? 0 : std::exp2(random.between(-8, 0)));
+    double total = 0, sum = 0;
+    for (const double w : weights) total += w;
+    std::vector<float> cdf;
+    for (const double w : weights) cdf.push_back(static_cast<float>((sum += w) / total));
+    cdf.back() = 1;
+    expectFrequencies(cdf, 1);
+}
+
+TEST(Light, RectanglesAreSampledUniformly) {
+    const Light light = rectangle({1, 2, 3}, {2, 0, 1}, {-1, 3, 2});
+    Histogram histogram(16, 16);
+    const dvec3 u = light.u, v = light.v, n = glm::normalize(glm::cross(u, v));
+    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 1))) {
+        const dvec3 d = dvec3(y.position) - dvec3(light.a), uv = glm::cross(u, v);
+        histogram.add(glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv));
+        ASSERT_NEAR(glm::dot(d, n), 0, 1e-6);
+        ASSERT_LT(glm::length(dvec3(y.normal) - n), 1e-6);
+        for (int i = 0; i < 3; i++) ASSERT_GE(y.magnitude[i], std::abs(y.position[i]));
+    }
+    EXPECT_LT(histogram.deviation(), 5);
+}
+
+// The square of one weight's complement, and the ratio of the others, are uniform.
+TEST(Light, TrianglesAreSampledUniformly) {
+    Light light = rectangle({1, 2, 3}, {2, 0, 1}, {-1, 3, 2});
+    light.kind = LIGHT_TRIANGLE;
+    light.area /= 2;
+    Histogram histogram(16, 16);
+    const dvec3 u = light.u, v = light.v, uv = glm::cross(u, v);
+    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 2))) {
+        const dvec3 d = dvec3(y.position) - dvec3(light.a);
+        const double x = glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), z = glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv);
+        // x uniform in area: P(x < t) = 1 - (1 - t)^2; given x, z is uniform up to 1 - x.
+        histogram.add(1 - (1 - x) * (1 - x), x < 1 - 1e-3 ? z / (1 - x) : 0.5);
+        ASSERT_LT(glm::length(dvec3(y.normal) - glm::normalize(uv)), 1e-6);
+        for (int i = 0; i < 3; i++) ASSERT_GE(y.magnitude[i], std::abs(y.position[i]));
+    }
+    EXPECT_LT(histogram.deviation(), 5);
+}
+
+TEST(Light, SpheresAreSampledUniformly) {
+    const Light light{.a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi), .probability = 1};
+    Histogram histogram(16, 16);
+    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 3))) {
+        const dvec3 n = (dvec3(y.position) - dvec3(light.a)) * 2.0;
+        histogram.add((n.z + 1) / 2, turn(n.x, n.y));
+        ASSERT_NEAR(glm::length(n), 1, 2e-6);
+        ASSERT_LT(glm::length(n - dvec3(y.normal)), 2e-6);
+        for (int i = 0; i < 3; i++) ASSERT_GE(y.magnitude[i], std::abs(y.position[i]));
+    }
+    EXPECT_LT(histogram.deviation(), 5);
+}
+
+TEST(Light, EmitsOnTheSidesItShould) {
+    std::vector<EmittedCase> xs;
+    for (const uint twoSided : {0u, 1u})
+        for (const vec3 w : {vec3{0, 0.6f, 0.8f}, vec3{0, 0.6f, -0.8f}}) {
+            EmittedCase x{rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), {0, 0, 1}, w};
+            x.light.radiance = {3, 2, 1};
+            x.light.twoSided = twoSided;
+            xs.push_back(x);
+        }
+    const vec3 radiance{3, 2, 1};
+    EXPECT_EQ(map<vec3>("emitted_radiance", xs), (std::vector<vec3>{radiance, vec3(0), radiance, radiance}));
+}
+
+TEST(Light, Luminance) {
+    const auto ys = map<float>("luminance_of", std::vector<vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 4, 8}});
+    const std::vector<float> expected{0.2126f, 0.7152f, 0.0722f, 1, 3.8636f};
+    for (std::size_t i = 0; i < ys.size(); i++) EXPECT_NEAR(ys[i], expected[i], 1e-6);
+}
+
+// The form factor of a point under the centre of a 1 x 1 light, by the midpoint rule over `side` x `side` light samples.
+double formFactor(double height, uint side) {
+    const Light light = rectangle({-0.5f, 0.5f, 0}, {1, 0, 0}, {0, -1, 0});
+    const TestScene scene = sceneWith({light});
+    double sum = 0;
+    for (uint begin = 0; begin < side; begin += 256) {
+        std::vector<vec2> us;
+        for (uint row = begin; row < std::min(begin + 256, side); row++)
+            for (uint i = 0; i < side; i++) us.push_back((vec2{i, row} + 0.5f) / float(side));
+        for (const LightValues& y : map<LightValues>("sample_light", us, {}, scene.context())) {
+            const dvec3 d = dvec3(y.position) - dvec3{0, 0, -height};
+            const double distance2 = glm::dot(d, d);
+            sum += d.z * -glm::dot(d, dvec3(y.normal)) / (distance2 * distance2 * pi);
+        }
+    }
+    return sum * double{light.area} / (double(side) * side);
+}
+
+TEST(Light, FormFactors) {
+    EXPECT_NEAR(formFactor(1, 256) / 0.2394564705, 1, 1e-5);
+    EXPECT_NEAR(formFactor(100, 64) / 3.18299276e-5, 1, 1e-5);
+    // Cells of half the height: the midpoint rule errs by exp(-2 pi * 2).
+    EXPECT_NEAR(formFactor(0.001, 2048) / 0.999996726772, 1, 1e-4);
+}
+
+} // namespace
+} // namespace vkpm

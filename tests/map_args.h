@@ -1,0 +1,128 @@
+// What the shader tests' kernels read: the arguments of a map, and its elements where a vector is not enough.
+//
+// Read by C++ and GLSL like shared.h, which GLSL includes before.
+
+#ifdef __cplusplus
+#pragma once
+#include "shared.h"
+namespace vkpm {
+#endif
+
+struct MapArgs {
+    PTR(uint) xs; // their types are the kernel's
+    PTR(uint) ys;
+    PTR(DeviceScene) scene;
+    PhotonMap photons;
+    uint count;
+};
+
+struct VectorPair {
+    vec3 a;
+    vec3 b;
+};
+
+struct BoxCase {
+    vec3 origin;
+    vec3 direction;
+    vec3 low;
+    vec3 high;
+};
+
+struct TriangleCase {
+    vec3 origin;
+    vec3 direction;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+
+struct SphereCase {
+    vec3 origin;
+    vec3 direction;
+    vec3 center;
+    float radius;
+};
+
+struct OffsetCase {
+    vec3 position;
+    vec3 magnitude;
+    vec3 normal;
+};
+
+/// A place on a primitive, and a direction in which to leave it.
+struct LeavingCase {
+    Primitive primitive;
+    vec2 weights; // triangle
+    vec3 along;   // sphere: a point near its surface
+    vec3 direction;
+};
+
+struct Leaving {
+    vec3 origin;
+    vec3 normal;
+    float t; // at which the ray hits the primitive again
+};
+
+struct SurfaceCase {
+    Path path;
+    Hit hit;
+};
+
+struct SurfaceValues {
+    vec3 position;
+    vec3 magnitude;
+    vec3 normal;
+    vec3 shading;
+    uint material;
+    uint light;
+};
+
+struct ScatterCase {
+    Material material;
+    vec3 normal;
+    vec3 shading;
+    vec3 direction;
+    float u;
+};
+
+struct ScatterValues {
+    vec3 direction;
+    vec3 weight;
+    vec3 normal;
+    float radianceScale;
+};
+
+struct CorrectionCase {
+    vec3 wi;
+    vec3 wo;
+    vec3 normal;
+    vec3 geometric;
+};
+
+struct LightValues {
+    vec3 position;
+    vec3 magnitude;
+    vec3 normal;
+};
+
+struct EmittedCase {
+    Light light;
+    vec3 normal;
+    vec3 direction;
+};
+
+struct AimCase {
+    vec3 position;
+    vec3 normal;
+    vec2 u;
+    float choice;
+};
+
+struct CameraCase {
+    Camera camera;
+    vec2 film;
+};
+
+#ifdef __cplusplus
+} // namespace vkpm
+#endif

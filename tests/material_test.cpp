@@ -1,0 +1,233 @@
+/// Fresnel reflectance, refraction and specular scattering against closed forms in double precision.
+#include "judge.h"
+#include "map.h"
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+using glm::dvec3;
+
+double fresnel(double eta, double cosI) {
+    const double sin2 = (1 - cosI * cosI) / (eta * eta);
+    if (sin2 >= 1) return 1;
+    const double cosT = std::sqrt(1 - sin2);
+    const double s = (cosI - eta * cosT) / (cosI + eta * cosT), p = (eta * cosI - cosT) / (eta * cosI + cosT);
+    return (s * s + p * p) / 2;
+}
+
+double schlick(double eta, double cosI) {
+    const double sin2 = (1 - cosI * cosI) / (eta * eta);
+    if (sin2 >= 1) return 1;
+    const double r = std::pow((eta - 1) / (eta + 1), 2);
+    return r + (1 - r) * std::pow(1 - (eta > 1 ? cosI : std::sqrt(1 - sin2)), 5);
+}
+
+float reflectance(double eta, double cosI, uint hasSchlick = 0) {
+    return map<float>("fresnel_reflectance", std::vector{vec2{eta, cosI}}, {.hasSchlick = hasSchlick})[0];
+}
+
+double cosineOf(double degrees) {
+    return std::cos(degrees * pi / 180);
+}
+
+TEST(Fresnel, KnownValues) {
+    EXPECT_NEAR(reflectance(1.5, 1), 0.04, 1e-7);
+    EXPECT_NEAR(reflectance(1 / 1.5, 1), 0.04, 1e-7);
+    EXPECT_NEAR(reflectance(1.5, cosineOf(60)), 0.0891867, 1e-6);
+    EXPECT_EQ(reflectance(1.5, 0), 1);
+    EXPECT_NEAR(reflectance(1, 0.3), 0, 1e-12);
+    // Brewster's angle, where p vanishes: half of s is left, ((n^2 - 1) / (n^2 + 1))^2 / 2.
+    EXPECT_NEAR(reflectance(1.5, cosineOf(56.3099)), 0.0739645, 1e-6);
+    // The critical angle.
+    EXPECT_LT(reflectance(1 / 1.5, cosineOf(41.8103 - 0.01)), 0.96);
+    EXPECT_EQ(reflectance(1 / 1.5, cosineOf(41.8103 + 0.01)), 1);
+    // A lossless plate, with all reflections between its faces.
+    const double f = reflectance(1.5, 1);
+    EXPECT_NEAR((1 - f) / (1 + f), 0.9230769, 1e-6);
+}
+
+std::vector<vec2> angles(double eta, int count) {
+    std::vector<vec2> xs;
+    for (int i = 0; i < count; i++) xs.push_back({eta, std::sqrt((i + 0.5) / count)});
+    return xs;
+}
+
+TEST(Fresnel, CosineWeightedMeans) {
+    for (const auto& [eta, expected] : {std::pair{1.5, 0.0917780}, {1 / 1.5, 0.5963458}}) {
+        Mean mean;
+        for (const float f : map<float>("fresnel_reflectance", angles(eta, 1 << 18))) mean.add(f);
+        EXPECT_NEAR(mean.mean(), expected, 2e-6);
+    }
+}
+
+TEST(Fresnel, AgreesWithDoublePrecision) {
+    Random random(1);
+    std::vector<vec2> xs;
+    for (int i = 0; i < 100'000; i++) xs.push_back({std::exp2(random.between(-1.5f, 1.5f)), random.unit()});
+    for (const uint hasSchlick : {0u, 1u}) {
+        const auto ys = map<float>("fresnel_reflectance", xs, {.hasSchlick = hasSchlick});
+        for (std::size_t i = 0; i < xs.size(); i++) {
+            const double eta = xs[i].x, cosI = xs[i].y, cos2 = 1 - (1 - cosI * cosI) / (eta * eta);
+            // The derivative is infinite at the critical angle: a rounding of 1e-7 there becomes its square root.
+            const double slack = 1e-6 + 2e-6 / std::sqrt(std::abs(cos2) + 1e-7);
+            ASSERT_NEAR(ys[i], hasSchlick ? schlick(eta, cosI) : fresnel(eta, cosI), slack) << eta << " " << cosI;
+        }
+    }
+}
+
+TEST(Fresnel, SchlickDeviatesAsMuchAsItShould) {
+    const auto xs = angles(1.5, 1 << 16);
+    const auto exact = map<float>("fresnel_reflectance", xs), approximate = map<float>("fresnel_reflectance", xs, {.hasSchlick = 1});
+    double absolute = 0, relative = 0;
+    for (std::size_t i = 0; i < xs.size(); i++) {
+        absolute = std::max(absolute, std::abs(double{approximate[i]} - exact[i]));
+        relative = std::max(relative, std::abs(double{approximate[i]} / exact[i] - 1));
+    }
+    EXPECT_NEAR(absolute, 0.036, 0.001);
+    EXPECT_NEAR(relative, 0.23, 0.01);
+}
+
+TEST(Fresnel, IsTheSameFromBothSides) {
+    std::vector<vec2> in, out;
+    for (const vec2 x : angles(1.5, 1'000)) {
+        in.push_back(x);
+        out.push_back({1 / x.x, std::sqrt(1 - (1 - x.y * x.y) / (x.x * x.x))});
+    }
+    for (const uint hasSchlick : {0u, 1u}) {
+        const auto one = map<float>("fresnel_reflectance", in, {.hasSchlick = hasSchlick});
+        const auto other = map<float>("fresnel_reflectance", out, {.hasSchlick = hasSchlick});
+        for (std::size_t i = 0; i < in.size(); i++) ASSERT_NEAR(one[i], other[i], 1e-5);
+    }
+}
+
+const vec3 tint{0.9f, 0.8f, 0.7f};
+const Features smooth{}, flat{.hasSmoothNormals = 0};
+
+ScatterCase glass(float ior, vec3 n, vec3 d, float u) {
+    return {{MATERIAL_GLASS, tint, ior}, n, n, d, u};
+}
+
+std::vector<ScatterValues> scatter(const std::vector<ScatterCase>& xs, const Features& features = flat) {
+    return map<ScatterValues>("scatter_specular", xs, features);
+}
+
+const float justBelowOne = 1 - 0x1p-24f;
+
+TEST(Scatter, RefractsBySnellsLaw) {
+    Random random(2);
+    std::vector<ScatterCase> xs;
+    for (int i = 0; i < 50'000; i++) xs.push_back(glass(random.between(1.01f, 2.5f), random.direction(), random.direction(), justBelowOne));
+    const auto ys = scatter(xs);
+    for (std::size_t i = 0; i < xs.size(); i++) {
+        const dvec3 d = xs[i].direction, out = dvec3(xs[i].normal);
+        const bool leaving = glm::dot(d, out) > 0;
+        const dvec3 n = leaving ? -out : out;
+        const double eta = leaving ? 1 / double{xs[i].material.ior} : double{xs[i].material.ior}, cosI = -glm::dot(d, n);
+        const double cos2 = 1 - (1 - cosI * cosI) / (eta * eta);
+        if (std::abs(cos2) < 1e-3 || cosI < 1e-3) continue;
+        const dvec3 expected = cos2 < 0 ? d + 2 * cosI * n : (d + cosI * n) / eta - std::sqrt(cos2) * n;
+        ASSERT_LT(glm::length(dvec3(ys[i].direction) - expected), 1e-5) << eta << " " << cosI;
+        ASSERT_NEAR(ys[i].radianceScale, cos2 < 0 ? 1 : 1 / (eta * eta), 1e-6);
+        ASSERT_EQ(ys[i].weight, cos2 < 0 ? vec3(1) : tint);
+        ASSERT_EQ(ys[i].normal, vec3(n));
+    }
+}
+
+TEST(Scatter, RefractionIsReversible) {
+    Random random(3);
+    std::vector<ScatterCase> xs, back;
+    for (int i = 0; i < 20'000; i++) {
+        const vec3 n = random.direction();
+        vec3 d = random.direction();
+        if (glm::dot(d, n) > 0) d = -d;
+        if (glm::dot(d, n) < -0.02f) xs.push_back(glass(1.5f, n, d, justBelowOne));
+    }
+    for (std::size_t i = 0; const ScatterValues& y : scatter(xs)) back.push_back(glass(1.5f, xs[i++].normal, -y.direction, justBelowOne));
+    const auto again = scatter(back);
+    for (std::size_t i = 0; i < xs.size(); i++) ASSERT_LT(glm::length(again[i].direction + xs[i].direction), 2e-5);
+}
+
+// The fraction reflected is the Fresnel reflectance, within 5 standard deviations.
+TEST(Scatter, ReflectsTheFractionOfFresnel) {
+    Random random(4);
+    const int count = 100'000;
+    for (const float ior : {1.5f, 1 / 1.5f})
+        for (const float cosine : {1.0f, 0.5f, 0.2f, 0.05f}) {
+            const vec3 d{std::sqrt(1 - cosine * cosine), 0, -cosine};
+            std::vector<ScatterCase> xs;
+            for (int i = 0; i < count; i++) xs.push_back(glass(ior, {0, 0, 1}, d, random.unit()));
+            double reflected = 0;
+            for (const ScatterValues& y : scatter(xs)) {
+                if (y.direction.z < 0) continue;
+                reflected++;
+                ASSERT_LT(glm::length(y.direction - vec3{d.x, 0, -d.z}), 1e-6);
+                ASSERT_EQ(y.weight, vec3(1));
+            }
+            const double f = fresnel(ior, cosine);
+            EXPECT_NEAR(reflected / count, f, 5 * std::sqrt(f * (1 - f) / count) + 1e-6) << ior << " " << cosine;
+        }
+}
+
+TEST(Scatter, MirrorsReflectFromBothSides) {
+    const Material mirror{MATERIAL_MIRROR, tint, 0};
+    const vec3 n = glm::normalize(vec3{1, 2, 3});
+    for (const vec3 d : {glm::normalize(vec3{1, -3, -2}), glm::normalize(vec3{1, 3, 2})})
+        for (const Features& features : {flat, smooth, Features{.hasGlass = 0}}) {
+            const ScatterValues y = scatter({{mirror, n, n, d, 0.999f}}, features)[0];
+            EXPECT_LT(glm::length(y.direction - (d - 2 * glm::dot(d, n) * n)), 1e-6);
+            EXPECT_EQ(y.weight, tint);
+            EXPECT_EQ(y.radianceScale, 1);
+        }
+}
+
+// Whatever the shading normal, reflection stays on the side of incidence and refraction on the other; where the event about
+// the shading normal does so, it is the one taken.
+TEST(Scatter, ShadingNormalsNeverPutLightOnTheWrongSide) {
+    Random random(5);
+    std::vector<ScatterCase> xs;
+    for (int i = 0; i < 100'000; i++) {
+        const vec3 n = random.direction();
+        vec3 shading = glm::normalize(n + random.cube(0.7f));
+        if (glm::dot(shading, n) < 0) shading = -shading;
+        xs.push_back({{random.bits() % 2 ? MATERIAL_GLASS : MATERIAL_MIRROR, tint, 1.5f}, n, shading, random.direction(), random.unit()});
+    }
+    const auto ys = scatter(xs, smooth);
+    int aboutShading = 0;
+    for (std::size_t i = 0; i < xs.size(); i++) {
+        const float in = glm::dot(xs[i].direction, xs[i].normal), out = glm::dot(ys[i].direction, xs[i].normal);
+        const bool reflected = ys[i].radianceScale == 1;
+        if (std::abs(out) > 1e-5f) { ASSERT_EQ(reflected, in * out < 0) << i; }
+        ASSERT_NEAR(glm::length(ys[i].direction), 1, 1e-5);
+        aboutShading += std::abs(glm::dot(ys[i].normal, xs[i].shading)) > 0.999999f;
+    }
+    EXPECT_GT(aboutShading, 60'000);
+}
+
+TEST(Scatter, SpecularCorrection) {
+    Random random(6);
+    std::vector<CorrectionCase> xs;
+    for (int i = 0; i < 1'000; i++) xs.push_back({random.direction(), random.direction(), random.direction(), random.direction()});
+    const auto ys = map<float>("specular_correction", xs), ones = map<float>("specular_correction", xs, flat);
+    for (std::size_t i = 0; i < xs.size(); i++) {
+        const auto& [wi, wo, n, g] = xs[i];
+        const double below = std::abs(double{glm::dot(wi, g)} * glm::dot(wo, n));
+        if (below > 1e-3) { ASSERT_NEAR(ys[i] * below, std::abs(double{glm::dot(wi, n)} * glm::dot(wo, g)), 1e-5); }
+        ASSERT_EQ(ones[i], 1);
+    }
+    EXPECT_TRUE(std::isfinite(map<float>("specular_correction", std::vector<CorrectionCase>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}})[0]));
+}
+
+TEST(Scatter, SpecularSurvival) {
+    const auto ys = map<float>("specular_survival", std::vector<vec4>{{1, 1, 1, 0}, {1, 1, 1, 31}, {1, 1, 1, 32}, {0.5f, 0.2f, 0.1f, 3}, {0.1f, 0.2f, 0.5f, 99}, {0, 0, 0, 0}});
+    EXPECT_EQ(ys, (std::vector<float>{1, 1, 0.9f, 0.5f, 0.5f, 0}));
+}
+
+TEST(Material, IsDiffuse) {
+    const std::vector<Material> all{{MATERIAL_DIFFUSE, tint, 0}, {MATERIAL_MIRROR, tint, 0}, {MATERIAL_GLASS, tint, 1.5f}};
+    EXPECT_EQ(map<uint>("is_diffuse", all), (std::vector<uint>{1, 0, 0}));
+    EXPECT_EQ(map<uint>("is_diffuse", std::vector{all[0]}, {.hasMirror = 0, .hasGlass = 0}), std::vector<uint>{1});
+}
+
+} // namespace
+} // namespace vkpm

@@ -1,0 +1,170 @@
+/// The trace and shadow kernels against Embree in the shipped scenes; double precision judges where the two differ.
+#include "bench/embree_scene.h"
+#include "scene_on_device.h"
+#include "scene_rays.h"
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace vkpm {
+namespace {
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr uint rayCount = 50'000;
+#else
+constexpr uint rayCount = 1'000'000;
+#endif
+
+// ---- The kernels --------------------------------------------------------------------------------
+
+/// A scene on the device, and queries through the kernels of a render.
+class Device {
+public:
+    explicit Device(const Scene& scene)
+        : uploaded(gpu, scene, {16, 16}), trace(gpu, "trace", sceneFeatures(scene, scene.settings)),
+          shadow(gpu, "shadow", sceneFeatures(scene, scene.settings)) {}
+
+    std::vector<Hit> closest(std::span<const TestRay> rays) {
+        std::vector<Path> started;
+        for (const TestRay& ray : rays) started.push_back({ray.origin, ray.direction, vec3{1}, 0, 0});
+        const Buffer<Path> paths(gpu, "paths", started);
+        const Buffer<Hit> hits(gpu, "hits", rays.size());
+        runAll(trace, rays.size(), [&](const auto& queue, const auto& list) {
+            return TraceArgs{uploaded.address, paths, hits, queue, list};
+        });
+        return hits.download();
+    }
+
+    std::vector<bool> occluded(std::span<const TestRay> rays) {
+        std::vector<ShadowRay> asked;
+        for (const TestRay& ray : rays)
+            asked.push_back({ray.origin, ray.origin + ray.direction, vec3{1}, LAYER_DIRECT});
+        const Buffer<ShadowRay> shadowRays(gpu, "shadow rays", asked);
+        const Buffer<Sample> samples(gpu, "samples", std::vector<Sample>(rays.size()));
+        runAll(shadow, rays.size(), [&](const auto& queue, const auto& list) {
+            return ShadowArgs{uploaded.address, shadowRays, samples, queue, list};
+        });
+        std::vector<bool> result;
+        for (const Sample& sample : samples.download()) result.push_back(sample.layers[LAYER_DIRECT] == vec3{0});
+        return result;
+    }
+
+private:
+    template <class Args, class Bind> void runAll(const Kernel<Args>& kernel, std::size_t count, const Bind& bind) {
+        std::vector<uint> identity(count);
+        std::iota(identity.begin(), identity.end(), 0);
+        const Queue whole{.count = static_cast<uint>(count)};
+        const Buffer<Queue> queue(gpu, "queue", std::span(&whole, 1));
+        const Buffer<uint> list(gpu, "list", identity);
+        Recording recording(gpu);
+        recording.run(kernel, count, bind(queue, list));
+        recording.submit();
+    }
+
+    Gpu& gpu = testGpu();
+    UploadedScene uploaded;
+    Kernel<TraceArgs> trace;
+    Kernel<ShadowArgs> shadow;
+};
+
+// ---- The comparison -----------------------------------------------------------------------------
+
+/// Where vkpm and Embree differ: who is right; both are, where rounding decides.
+struct Differences {
+    uint count = 0, random = 0, ties = 0, wrong = 0, wrongEmbree = 0; // random: of rays in general position
+    double error = 0;
+
+    void add(bool accepted, bool acceptedEmbree, uint ray) {
+        ++count;
+        wrong += !accepted;
+        wrongEmbree += !acceptedEmbree;
+        if (!accepted && wrong <= 3)
+            ADD_FAILURE() << "ray " << ray << (acceptedEmbree ? ": Embree is right" : ": Embree is wrong too");
+    }
+};
+
+void print(const std::string& what, const Differences& d) {
+    std::printf("  %-14s differences %5u (%u of random rays), vkpm wrong %u, Embree wrong %4u; ties %6u; t off by %.2f "
+                "of its bound\n",
+                what.c_str(), d.count, d.random, d.wrong, d.wrongEmbree, d.ties, d.error);
+}
+
+Differences compareClosest(const Scene& scene, Device& device, const EmbreeScene& embree,
+                           std::span<const TestRay> rays) {
+    const Judge judge{scene};
+    const std::vector<Hit> hits = device.closest(rays);
+    Differences differences;
+    for (uint i = 0; i < rays.size(); ++i) {
+        const TestRay& ray = rays[i];
+        const Hit expected = embree.closest(ray.origin, ray.direction), found = hits[i];
+        if (found.primitive != NONE) differences.error = std::max(differences.error, judge.error(ray, found));
+        if (found.primitive == NONE && expected.primitive == NONE) continue;
+        if (found.primitive != NONE && expected.primitive != NONE &&
+            std::abs(found.t - expected.t) <= judge.tolerance(ray, found) + judge.tolerance(ray, expected))
+            differences.ties += found.primitive != expected.primitive;
+        else {
+            differences.random += RayMaker::isRandom(i);
+            differences.add(judge.accepts(ray, found), judge.accepts(ray, expected), i);
+        }
+    }
+    return differences;
+}
+
+Differences compareOccluded(const Scene& scene, Device& device, const EmbreeScene& embree,
+                            std::span<const TestRay> rays) {
+    const Judge judge{scene};
+    const std::vector<bool> occluded = device.occluded(rays);
+    Differences differences;
+    for (uint i = 0; i < rays.size(); ++i) {
+        const vec3 target = rays[i].origin + rays[i].direction;
+        const TestRay rounded{rays[i].origin, target - rays[i].origin};
+        const bool expected = embree.occluded(rounded.origin, target);
+        if (occluded[i] != expected)
+            differences.add(judge.accepts(rounded, occluded[i]), judge.accepts(rounded, expected), i);
+    }
+    return differences;
+}
+
+class Rays : public testing::TestWithParam<const char*> {
+protected:
+    Scene scene = loadScene(std::filesystem::path{VKPM_SCENES} / (std::string{GetParam()} + ".json"));
+    EmbreeScene embree{scene, RTC_SCENE_FLAG_ROBUST};
+    Device device{scene};
+    RayMaker maker{scene};
+};
+
+TEST_P(Rays, HitWhatEmbreeHits) {
+    const Differences found = compareClosest(scene, device, embree, maker.rays(rayCount));
+    print(GetParam() + std::string{" closest"}, found);
+    EXPECT_EQ(found.wrong, 0u);
+    EXPECT_LE(found.error, 1.0);
+    EXPECT_LE(found.random, 3u);
+    EXPECT_LT(found.count, rayCount / 20) << "rays aimed at edges and corners may go either way, others not";
+}
+
+TEST_P(Rays, AreOccludedWhereEmbreeSaysSo) {
+    const Differences found = compareOccluded(scene, device, embree, maker.segments(rayCount));
+    print(GetParam() + std::string{" occluded"}, found);
+    EXPECT_EQ(found.wrong, 0u);
+    EXPECT_LT(found.count, rayCount / 500);
+}
+
+TEST_P(Rays, LeaveTheirTriangle) {
+    std::mt19937 random{23};
+    std::uniform_real_distribution<float> uniform{-1, 1};
+    std::vector<LeavingCase> xs;
+    for (uint i = 0; i < rayCount / 4; ++i) {
+        const uint id =
+            i % 2 == 0 ? i / 2 % std::min(24u, scene.triangleCount) : static_cast<uint>(random() % scene.triangleCount);
+        const vec2 u = glm::abs(vec2{uniform(random), uniform(random)});
+        const vec3 direction{uniform(random), uniform(random), uniform(random)};
+        xs.push_back({scene.primitives[id], u.x + u.y > 1 ? 1.0f - u : u, vec3{0}, glm::normalize(direction)});
+    }
+    const auto ys = map<Leaving>("leave_triangle", xs, {.hasSmoothNormals = 0}, {.scene = device.address()});
+    EXPECT_EQ(std::ranges::count_if(ys, [](const Leaving& y) { return y.t > 0; }), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Rays, testing::Values("ring", "glass", "pool", "box"),
+                         [](const auto& scene) { return scene.param; });
+
+} // namespace
+} // namespace vkpm

@@ -1,0 +1,32 @@
+/// Small scenes for shader tests: shapes to a hierarchy on the device.
+#pragma once
+#include "map.h"
+#include "render/device_scene.h"
+#include "scene/bvh.h"
+
+namespace vkpm {
+
+/// A scene of triangles and then spheres, without materials.
+inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
+    Scene scene;
+    const Bvh bvh = buildBvh(primitives, triangleCount);
+    scene.nodes = bvh.nodes;
+    scene.leaves = bvh.leaves;
+    scene.stackSize = bvh.stackSize;
+    scene.primitives = std::move(primitives);
+    scene.triangleCount = triangleCount;
+    return scene;
+}
+
+inline Primitive triangle(vec3 a, vec3 b, vec3 c) { return {a, b, c, 0, NONE, NONE}; }
+
+inline Primitive sphere(vec3 center, float radius) { return {center, vec3{radius}, vec3{0}, 0, NONE, NONE}; }
+
+/// A scene whose arrays kernels can read.
+struct TestScene : UploadedScene {
+    explicit TestScene(const Scene& scene) : UploadedScene(testGpu(), scene, uvec2{1, 1}) {}
+
+    MapContext context() const { return {.scene = address}; }
+};
+
+} // namespace vkpm
