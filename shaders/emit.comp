@@ -32,7 +32,7 @@ void main() {
 
     vec3 color = light.radiance / luminance(light.radiance) * weight;
     vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
-    args.paths.at[photon] = Path(origin, direction, color, 0.0, 0u);
+    args.paths.at[photon] = Path(origin, direction, color, 0.0, NONE, 0u);
     args.list.at[photon] = photon;
     args.flags.at[photon] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
     if (!(weight > 0.0)) atomicAdd(args.status.at[0].escaped, 1u);

@@ -14,7 +14,7 @@ void main() {
     vec2 within = args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.pass, args.seed), 0u);
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
-    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, 0u);
+    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u);
     args.list.at[slot] = slot;
 
     for (uint layer = 0u; layer < LAYER_COUNT; layer++) args.samples.at[slot].layers[layer] = vec3(0.0);

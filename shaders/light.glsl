@@ -26,7 +26,8 @@ LightPoint sampleLight(Light light, vec2 u) {
         return LightPoint(light.a + light.u.x * n, abs(light.a) + light.u.x, n);
     }
     vec2 w = light.kind == LIGHT_TRIANGLE ? uniformTriangle(u) : u;
-    vec3 magnitude = abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v);
+    // A shadow ray may hit a triangle of the light anywhere along it, so all components of its place count.
+    vec3 magnitude = vec3(maxComponent(abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v)));
     return LightPoint(light.a + w.x * light.u + w.y * light.v, magnitude, normalize(cross(light.u, light.v)));
 }
 

@@ -28,7 +28,7 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
     vec2 u = sample2(s, 4u * args.bounce + 5u);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, PATH_SPECULAR);
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, PATH_SPECULAR);
     return survives(path, event.weight, specularSurvival(event.weight, args.bounce), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
 }
 
@@ -44,7 +44,7 @@ Photon arrive(inout Path path, Surface surface, vec3 normal) {
 uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
     if (!survives(path, material.color, maxComponent(material.color), sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, 0u);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, 0u);
     return FATE_GOES_ON;
 }
 

@@ -52,7 +52,7 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
 
     vec3 lightSide = dot(w, point.normal) > 0.0 ? -point.normal : point.normal;
     uint layer = path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT;
-    args.shadowRays.at[slot] = ShadowRay(offsetPoint(surface.position, surface.magnitude, normal),
+    args.shadowRays.at[slot] = ShadowRay(offsetPoint(surface.position, surface.magnitude, normal), surface.primitive,
         offsetPoint(point.position, point.magnitude, lightSide), radiance, layerOf(path, layer));
     return true;
 }
@@ -70,7 +70,8 @@ bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, 
     vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
     if (dot(direction, normal) <= 0.0) return false;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput * albedo / survival, 0.0, flags);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput * albedo / survival, 0.0,
+        surface.primitive, flags);
     return true;
 }
 
@@ -81,7 +82,7 @@ bool scatterAtSpecular(inout Path path, Material material, Surface surface, floa
     if (u.y >= survival) return false;
     uint flags = path.flags | PATH_SPECULAR | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
-    path = Path(leave(surface, event.direction), event.direction, throughput, travelled, flags);
+    path = Path(leave(surface, event.direction), event.direction, throughput, travelled, surface.primitive, flags);
     return maxComponent(throughput) > 0.0;
 }
 

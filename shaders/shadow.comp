@@ -12,5 +12,5 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     ShadowRay ray = args.shadowRays.at[slot];
-    if (!occluded(args.scene.at[0], ray.origin, ray.target)) args.samples.at[slot].layers[ray.layer] += ray.radiance;
+    if (!occluded(args.scene.at[0], ray.origin, ray.target, ray.from)) args.samples.at[slot].layers[ray.layer] += ray.radiance;
 }

@@ -223,6 +223,7 @@ struct Path {
     vec3 direction;
     vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
     float travelled; // since the last diffuse vertex
+    uint from;       // primitive that the ray leaves, or NONE
     uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
 };
 const uint PATH_EYE_SPECULAR = 1u; // eye: the first vertex was specular
@@ -394,6 +395,7 @@ struct CellsArgs {
 /// A light sample that counts if nothing stands between the two points.
 struct ShadowRay {
     vec3 origin;
+    uint from; // primitive that the ray leaves
     vec3 target;
     vec3 radiance;
     uint layer;

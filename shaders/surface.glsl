@@ -7,9 +7,11 @@ struct Surface {
     vec3 shading;   // normal, on the same side as the geometric one
     uint material;
     uint light;
+    uint primitive;
 };
 
-Surface triangleSurface(DeviceScene scene, Primitive p, vec2 weights) {
+Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
+    vec2 weights = hit.weights;
     float first = 1.0 - weights.x - weights.y;
     vec3 a = first * p.a;
     vec3 b = weights.x * p.b;
@@ -21,20 +23,20 @@ Surface triangleSurface(DeviceScene scene, Primitive p, vec2 weights) {
         shading = normalize(first * n.a + weights.x * n.b + weights.y * n.c);
         if (dot(shading, normal) < 0.0) shading = -shading;
     }
-    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light);
+    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive);
 }
 
 // The hit point is projected onto the sphere, so that its error is that of one rounding, not of t.
-Surface sphereSurface(Primitive p, vec3 along) {
+Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
     vec3 normal = normalize(along - p.a);
-    return Surface(p.a + p.b.x * normal, abs(p.a) + p.b.x, normal, normal, p.material, p.light);
+    return Surface(p.a + p.b.x * normal, abs(p.a) + p.b.x, normal, normal, p.material, p.light, hit.primitive);
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {
     Primitive p = scene.primitives.at[hit.primitive];
     if (hasSpheres != 0u && (hasTriangles == 0u || hit.primitive >= scene.triangleCount))
-        return sphereSurface(p, path.origin + hit.t * path.direction);
-    return triangleSurface(scene, p, hit.weights);
+        return sphereSurface(p, path.origin + hit.t * path.direction, hit);
+    return triangleSurface(scene, p, hit);
 }
 
 // The origin of a ray that leaves the surface in a direction.

@@ -11,5 +11,5 @@ void main() {
     Queue queue = args.queue.at[0];
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
-    args.hits.at[slot] = closest(args.scene.at[0], args.paths.at[slot].origin, args.paths.at[slot].direction);
+    args.hits.at[slot] = closest(args.scene.at[0], args.paths.at[slot].origin, args.paths.at[slot].direction, args.paths.at[slot].from);
 }

@@ -15,17 +15,14 @@ using glm::dvec3;
 struct TestRay {
     vec3 origin;
     vec3 direction;
+    uint from = NONE; // primitive that the ray leaves; if a triangle, the ray cannot hit it
 };
 
 // A coordinate goes through about eight roundings of 2^-24 each until it decides: the difference to the origin, the
-// shear and its factor, two products and two sums, each of at most twice the distance.
-inline constexpr double DISPLACEMENT = 8 * 0x1p-24;
+// shear, its product and difference, and the products and difference of two coordinates; a coordinate is up to twice
+// the distance.
+inline constexpr double DISPLACEMENT = 16 * 0x1p-24;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Ray {
-    vec3 origin;
-    vec3 direction;
-};
 
 /// Largest distance from a point to a primitive.
 inline double reachOf(dvec3 origin, const Primitive& p, bool sphere) {
@@ -114,6 +111,7 @@ private:
         const dvec3 o{ray.origin}, d = glm::normalize(dvec3{ray.direction});
         std::vector<uint> near;
         for (uint i = 0; i < scene.primitives.size(); ++i) {
+            if (i == ray.from && !isSphere(i)) continue;
             const Primitive& p = scene.primitives[i];
             const dvec3 f = o - dvec3{p.a}, across = f - glm::dot(f, d) * d;
             const double radius =

@@ -29,7 +29,7 @@ public:
                 result.push_back(toward(edgePoint(primitive())));
                 break;
             default:
-                result.push_back(i % 2 == 0 ? TestRay{anywhere(), direction()} : TestRay{surfacePoint(), direction()});
+                result.push_back(i % 2 == 0 ? TestRay{anywhere(), direction()} : leave(primitive()));
             }
         }
         return result;
@@ -41,13 +41,31 @@ public:
     std::vector<TestRay> segments(uint count) {
         std::vector<TestRay> result;
         for (uint i = 0; i < count; ++i) {
-            const vec3 origin = i % 4 == 0 ? anywhere() : surfacePoint();
-            result.push_back({origin, surfacePoint() - origin});
+            TestRay ray = i % 4 == 0 ? TestRay{anywhere(), {}} : leave(primitive());
+            ray.direction = leave(primitive()).origin - ray.origin;
+            result.push_back(ray);
         }
         return result;
     }
 
+    /// Rays that leave the halves of a rectangle across an axis, triangles 2 k and 2 k + 1.
+    std::vector<TestRay> leavingRectangles(uint count) {
+        std::vector<uint> flat;
+        for (uint i = 0; i + 1 < scene.triangleCount; i += 2)
+            if (isFlat(scene.primitives[i], scene.primitives[i + 1])) flat.insert(flat.end(), {i, i + 1});
+        std::vector<TestRay> result;
+        while (!flat.empty() && result.size() < count) result.push_back(leave(flat[result.size() % flat.size()]));
+        return result;
+    }
+
 private:
+    static bool isFlat(const Primitive& p, const Primitive& q) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto in = [&](vec3 point) { return point[axis] == p.a[axis]; };
+            if (in(p.b) && in(p.c) && in(q.a) && in(q.b) && in(q.c)) return true;
+        }
+        return false;
+    }
     float uniform() { return std::uniform_real_distribution<float>{}(random); }
     uint below(std::size_t count) { return static_cast<uint>(random() % count); }
     uint primitive() { return below(scene.primitives.size()); }
@@ -76,9 +94,8 @@ private:
         return isSphere(id) ? p.a + p.b.x * direction() : glm::mix(p.a, p.b, uniform() < 0.5f ? 0.5f : uniform());
     }
 
-    /// A point moved off a surface to either side, as kernels do before they trace a ray from it.
-    vec3 surfacePoint() {
-        const uint id = primitive();
+    /// A ray from a surface, on either side of it and moved off it as kernels do.
+    TestRay leave(uint id) {
         const Primitive& p = scene.primitives[id];
         vec2 x{uniform(), uniform()};
         if (x.x + x.y > 1) x = 1.0f - x;
@@ -87,7 +104,8 @@ private:
         const vec3 n = isSphere(id) ? outward : glm::normalize(glm::cross(p.b - p.a, p.c - p.a));
         const vec3 magnitude = glm::abs(p.a) + (isSphere(id) ? vec3{p.b.x} : glm::abs(p.b) + glm::abs(p.c));
         const float offset = 0x1p-18f * glm::dot(glm::abs(n), magnitude);
-        return point + (uniform() < 0.5f ? n : -n) * offset;
+        const vec3 d = direction();
+        return {point + (glm::dot(n, d) > 0 ? n : -n) * offset, d, id};
     }
 
     /// Two zero components; half of these rays lie in planes of boxes and pass through a corner.

@@ -26,10 +26,11 @@ public:
         rtcReleaseDevice(device);
     }
 
-    /// The closest hit with t > 0, in units of the direction's length; the weights of a sphere's hit mean nothing.
-    Hit closest(vec3 origin, vec3 direction) const {
+    /// The closest hit with t > tMin, in units of the direction's length; the weights of a sphere's hit mean nothing.
+    Hit closest(vec3 origin, vec3 direction, float tMin = 0) const {
         RTCRayHit query{};
         query.ray = ray(origin, direction, std::numeric_limits<float>::infinity());
+        query.ray.tnear = tMin;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);

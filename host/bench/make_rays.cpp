@@ -25,7 +25,7 @@ struct Point {
     vec3 normal;
 };
 
-Path startPath(vec3 origin, vec3 direction) { return {origin, direction, vec3{1}, 0, 0}; }
+Path startPath(vec3 origin, vec3 direction, uint from) { return {origin, direction, vec3{1}, 0, from, 0}; }
 
 std::vector<Path> primaryRays(const Scene& scene, Random& random) {
     const uvec2 size = scene.settings.size;
@@ -36,7 +36,7 @@ std::vector<Path> primaryRays(const Scene& scene, Random& random) {
             const float u = (float(x) + random.uniform()) / float(size.x),
                         v = (float(y) + random.uniform()) / float(size.y);
             const vec3 direction = camera.forward + (2 * u - 1) * camera.right + (1 - 2 * v) * camera.up;
-            rays.push_back(startPath(camera.origin, glm::normalize(direction)));
+            rays.push_back(startPath(camera.origin, glm::normalize(direction), NONE));
         }
     return rays;
 }
@@ -70,9 +70,9 @@ BenchRays makeRays(const Scene& scene, const EmbreeScene& embree) {
         if (hit.primitive == NONE) continue;
         const Point point = pointAt(scene, path, hit);
         const vec3 cosine = point.normal + 0.9999f * random.direction();
-        rays.bounce.push_back(startPath(point.position, glm::normalize(cosine)));
+        rays.bounce.push_back(startPath(point.position, glm::normalize(cosine), hit.primitive));
         const Light& light = scene.lights[random.below(scene.lights.size())];
-        rays.shadow.push_back({point.position, pointOn(light, random), vec3{1}, LAYER_DIRECT});
+        rays.shadow.push_back({point.position, hit.primitive, pointOn(light, random), vec3{1}, LAYER_DIRECT});
     }
     if (rays.bounce.empty())
         throw InputError("bench: the scene's camera sees nothing; allowed: one that sees a surface");

@@ -44,11 +44,11 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
 
 RawBuffer::RawBuffer() noexcept = default;
 
-RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size) : bytes(size) {
+RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size, std::uint64_t slack) : bytes(size) {
     if (bytes == 0) return;
     const bool maps = gpu.handles->mapsDeviceMemory;
     const auto wanted = maps ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags(Property::eDeviceLocal);
-    Allocation allocation = allocate(gpu, name, bytes, wanted);
+    Allocation allocation = allocate(gpu, name, bytes + slack, wanted);
     handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory), std::move(allocation.buffer), nullptr, bytes);
     address = gpu.handles->device.getBufferAddress({.buffer = *handles->buffer});
     if (maps) handles->mapped = handles->memory.mapMemory(0, VK_WHOLE_SIZE);
