@@ -57,8 +57,8 @@ class Judge {
 public:
     explicit Judge(const Scene& judged) : scene{judged}, displacements{dvec3{0}} {
         for (const double size : {0.1, 0.4, 1.0})
-            for (int i = 0; i < 32; ++i) {
-                const double z = 1 - (2 * i + 1) / 32.0, phi = 2.399963 * i; // golden angle
+            for (int i = 0; i < 256; ++i) {
+                const double z = 1 - (2 * i + 1) / 256.0, phi = 2.399963 * i; // golden angle
                 displacements.push_back(
                     size * dvec3{std::sqrt(1 - z * z) * dvec3{std::cos(phi), std::sin(phi), 0} + dvec3{0, 0, z}});
             }

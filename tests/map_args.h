@@ -21,6 +21,13 @@ struct VectorPair {
     vec3 b;
 };
 
+/// A ray that leaves a primitive.
+struct StartCase {
+    vec3 origin;
+    vec3 direction;
+    uint from;
+};
+
 struct BoxCase {
     vec3 origin;
     vec3 direction;

@@ -42,7 +42,7 @@ public:
         std::vector<TestRay> result;
         for (uint i = 0; i < count; ++i) {
             TestRay ray = i % 4 == 0 ? TestRay{anywhere(), {}} : leave(primitive());
-            ray.direction = leave(primitive()).origin - ray.origin;
+            ray.direction = leave(primitive(), true).origin - ray.origin;
             result.push_back(ray);
         }
         return result;
@@ -94,8 +94,9 @@ private:
         return isSphere(id) ? p.a + p.b.x * direction() : glm::mix(p.a, p.b, uniform() < 0.5f ? 0.5f : uniform());
     }
 
-    /// A ray from a surface, on either side of it and moved off it as kernels do.
-    TestRay leave(uint id) {
+    /// A ray from a surface, on either side of it and moved off it as kernels do; a point of a light, at which a shadow
+    /// ray ends, moves farther.
+    TestRay leave(uint id, bool light = false) {
         const Primitive& p = scene.primitives[id];
         vec2 x{uniform(), uniform()};
         if (x.x + x.y > 1) x = 1.0f - x;
@@ -103,7 +104,8 @@ private:
         const vec3 point = isSphere(id) ? p.a + p.b.x * outward : onTriangle;
         const vec3 n = isSphere(id) ? outward : glm::normalize(glm::cross(p.b - p.a, p.c - p.a));
         const vec3 magnitude = glm::abs(p.a) + (isSphere(id) ? vec3{p.b.x} : glm::abs(p.b) + glm::abs(p.c));
-        const float offset = 0x1p-18f * glm::dot(glm::abs(n), magnitude);
+        const float largest = std::max({magnitude.x, magnitude.y, magnitude.z});
+        const float offset = 0x1p-18f * glm::dot(glm::abs(n), light ? vec3{largest} : magnitude);
         const vec3 d = direction();
         return {point + (glm::dot(n, d) > 0 ? n : -n) * offset, d, id};
     }

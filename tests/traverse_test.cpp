@@ -172,6 +172,16 @@ TEST(Traverse, HitsEqualThoseOfASearchThroughAll) {
     expectSameAsAll(randomSoup(0, 50, random), {.hasTriangles = 0}, 7);
 }
 
+// A ray leaves out the triangle that it starts on, but not the sphere, whose other side it may meet.
+TEST(Traverse, RaysDoNotHitTheTriangleTheyLeave) {
+    const Scene scene = sceneOf({triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}), triangle({-1, -1, -1}, {1, -1, -1}, {0, 1, -1}), sphere({0, 0, -3}, 1)}, 2);
+    const TestScene uploaded(scene);
+    const vec3 down{0, 0, -1};
+    const std::vector<StartCase> rays{{{0, 0, 1}, down, NONE}, {{0, 0, 1}, down, 0}, {{0, 0, 1}, down, 1}, {{0, 0, -3}, down, 2}};
+    const auto hits = map<Hit>("closest_from", rays, {.stackSize = scene.stackSize}, uploaded.context());
+    for (std::size_t i = 0; i < rays.size(); i++) EXPECT_EQ(hits[i].primitive, (std::vector<uint>{0, 1, 0, 2})[i]) << i;
+}
+
 // Of two primitives at the same distance the lower one is hit.
 TEST(Traverse, TiesGoToTheLowerPrimitive) {
     const Primitive t = triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});

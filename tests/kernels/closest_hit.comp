@@ -5,4 +5,4 @@
 #include "intersect.glsl"
 #include "traverse.glsl"
 
-MAP(VectorPair, Hit, closest(args.scene.at[0], x.a, x.b))
+MAP(VectorPair, Hit, closest(args.scene.at[0], x.a, x.b, NONE))

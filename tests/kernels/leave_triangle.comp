@@ -7,7 +7,7 @@
 #include "surface.glsl"
 
 Leaving again(LeavingCase x) {
-    Surface surface = triangleSurface(args.scene.at[0], x.primitive, x.weights);
+    Surface surface = triangleSurface(args.scene.at[0], x.primitive, Hit(0.0, 0u, x.weights));
     vec3 origin = leave(surface, x.direction);
     vec2 weights;
     Primitive p = x.primitive;

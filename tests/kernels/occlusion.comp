@@ -5,4 +5,4 @@
 #include "intersect.glsl"
 #include "traverse.glsl"
 
-MAP(VectorPair, uint, uint(occluded(args.scene.at[0], x.a, x.b)))
+MAP(VectorPair, uint, uint(occluded(args.scene.at[0], x.a, x.b, NONE)))

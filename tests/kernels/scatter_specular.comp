@@ -7,7 +7,9 @@
 #include "material.glsl"
 
 ScatterValues scatter(ScatterCase x) {
-    Surface surface = Surface(vec3(0.0), vec3(0.0), x.normal, x.shading, 0u, NONE);
+    Surface surface; // of which scattering reads the normals alone
+    surface.normal = x.normal;
+    surface.shading = x.shading;
     Scattering s = scatterSpecular(x.material, surface, x.direction, x.u);
     return ScatterValues(s.direction, s.weight, s.normal, s.radianceScale);
 }

@@ -1,0 +1,107 @@
+/// Each layer of the photon integrator against the path tracer, which counts the same paths.
+#include "render_support.h"
+#include <gtest/gtest.h>
+#include <map>
+
+namespace vkpm {
+namespace {
+
+const std::map<uint, const char*> layerNames{{LAYER_EMISSION, "emission"}, {LAYER_DIRECT, "direct"}, {LAYER_SPECULAR, "specular"},
+                                             {LAYER_CAUSTIC, "caustic"}, {LAYER_INDIRECT, "indirect"}, {LAYER_COUNT, "beauty"}};
+
+const uint repetitions = 8;
+
+struct Renders {
+    std::map<uint, Estimate> layers; // image means over independent seeds
+    std::vector<Pixel> mean;         // of all of them
+    std::vector<Pixel> first;
+};
+
+Renders renderSeeds(const Scene& scene, Settings settings, uint passes) {
+    std::map<uint, std::vector<double>> values;
+    Renders result;
+    for (uint seed = 0; seed < repetitions; seed++) {
+        settings.seed = 100 + seed;
+        const Rendered image = renderPasses(scene, settings, passes);
+        EXPECT_EQ(image.nonfinite, 0u);
+        for (const auto& [layer, _] : layerNames) values[layer].push_back(layerMean(image.pixels, layer));
+        if (seed == 0) {
+            result.first = image.pixels;
+            result.mean.resize(image.pixels.size(), Pixel{});
+        }
+        for (std::size_t i = 0; i < image.pixels.size(); i++)
+            for (uint l = 0; l < LAYER_COUNT; l++) result.mean[i].mean.layers[l] += image.pixels[i].mean.layers[l] / float(repetitions);
+    }
+    for (const auto& [layer, list] : values) result.layers[layer] = estimate(list);
+    return result;
+}
+
+// Mean of (x - ref)^2 / (ref^2 + 0.01) over pixels and channels of a layer.
+double relMse(const std::vector<Pixel>& image, const std::vector<Pixel>& reference, uint layer) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.size(); i++)
+        for (int c = 0; c < 3; c++) {
+            const double truth = reference[i].mean.layers[layer][c];
+            const double error = image[i].mean.layers[layer][c] - truth;
+            sum += error * error / (truth * truth + 0.01);
+        }
+    return sum / (3.0 * double(image.size()));
+}
+
+struct Case {
+    const char* scene;
+    float radius;        // small enough that the bias of the gathers is below the noise
+    float causticRadius; //
+    uint pathPasses;
+    uint photonPasses;
+    double bias; // of an image mean that the radii may cause, relative
+};
+
+// The bias of a disc at the edges of walls: a disc of radius r loses 0.21 r per length of edge, and the gathers see an edge's
+// surroundings at 0.4 r / (side of the wall) on the average; `bias` is that figure for the scene.
+void expectAgreement(const Case& c) {
+    const Scene scene = shippedScene(c.scene);
+    Settings settings = scene.settings;
+    settings.size = {64, 64};
+    settings.photons = settings.causticPhotons = 50'000;
+    settings.radius = c.radius;
+    settings.causticRadius = c.causticRadius;
+    const Renders photon = renderSeeds(scene, settings, c.photonPasses);
+    settings.integrator = INTEGRATOR_PATH;
+    const Renders path = renderSeeds(scene, settings, c.pathPasses);
+
+    for (const auto& [layer, name] : layerNames) {
+        const Estimate a = photon.layers.at(layer);
+        const Estimate b = path.layers.at(layer);
+        const double allowed = 4 * std::hypot(a.error, b.error) + c.bias * b.mean;
+        std::printf("%-12s %-9s photon %.6f +- %.6f  path %.6f +- %.6f  z %+.2f\n", c.scene, name, a.mean, a.error, b.mean, b.error, zScore(a, b));
+        EXPECT_NEAR(a.mean, b.mean, allowed) << c.scene << " " << name;
+    }
+}
+
+TEST(Layers, BoxAgreesWithThePathTracer) { expectAgreement({"box", 0.006f, 0.01f, 64, 32, 0.002}); }
+TEST(Layers, DiffuseBoxAgreesWithThePathTracer) { expectAgreement({"diffuse_box", 0.006f, 0.01f, 64, 32, 0.002}); }
+TEST(Layers, RingAgreesWithThePathTracer) { expectAgreement({"ring", 0.015f, 0.015f, 128, 32, 0.002}); }
+TEST(Layers, PoolAgreesWithThePathTracer) { expectAgreement({"pool", 0.015f, 0.015f, 128, 32, 0.002}); }
+
+// At equal passes the photon integrator's caustic and indirect light are nearer to the truth than the path tracer's.
+TEST(Layers, BoxIsNearerToTheTruthAtEqualPasses) {
+    const Scene scene = shippedScene("box");
+    Settings settings = scene.settings;
+    settings.size = {64, 64};
+    settings.photons = settings.causticPhotons = 100'000;
+    const Renders photon = renderSeeds(scene, settings, 8);
+    settings.integrator = INTEGRATOR_PATH;
+    const std::vector<Pixel> path = renderPasses(scene, settings, 8).pixels;
+    settings.seed = 1000;
+    const std::vector<Pixel> truth = renderPasses(scene, settings, 1024).pixels;
+    for (const auto& [layer, factor] : {std::pair{LAYER_DIRECT, 1.05}, {LAYER_CAUSTIC, 0.2}, {LAYER_INDIRECT, 1.0}}) {
+        const double ours = relMse(photon.first, truth, layer);
+        const double theirs = relMse(path, truth, layer);
+        std::printf("relMSE of %s after 8 passes: photon %.5f, path %.5f\n", layerNames.at(layer), ours, theirs);
+        EXPECT_LT(ours, factor * theirs) << layerNames.at(layer);
+    }
+}
+
+} // namespace
+} // namespace vkpm
