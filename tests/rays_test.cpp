@@ -74,6 +74,7 @@ struct Differences {
     uint count = 0, random = 0, ties = 0, wrong = 0, wrongEmbree = 0; // random: of rays in general position
     double error = 0;
 
+    bool tooMany() const { return wrong >= 100 || count >= largestCount; }
     void add(bool accepted, bool acceptedEmbree, uint ray) {
         ++count;
         wrong += !accepted;
@@ -101,7 +102,7 @@ Differences compareClosest(const Scene& scene, Device& device, const EmbreeScene
     const Judge judge{scene};
     const std::vector<Hit> hits = device.closest(rays);
     Differences differences;
-    for (uint i = 0; i < rays.size() && differences.count < largestCount; ++i) {
+    for (uint i = 0; i < rays.size() && !differences.tooMany(); ++i) {
         const TestRay& ray = rays[i];
         const Hit expected = embreeClosest(scene, embree, ray), found = hits[i];
         if (found.primitive != NONE) differences.error = std::max(differences.error, judge.error(ray, found));
@@ -122,7 +123,7 @@ Differences compareOccluded(const Scene& scene, Device& device, const EmbreeScen
     const Judge judge{scene};
     const std::vector<bool> occluded = device.occluded(rays);
     Differences differences;
-    for (uint i = 0; i < rays.size() && differences.count < largestCount; ++i) {
+    for (uint i = 0; i < rays.size() && !differences.tooMany(); ++i) {
         const vec3 target = rays[i].origin + rays[i].direction;
         const TestRay rounded{rays[i].origin, target - rays[i].origin, rays[i].from};
         const bool expected = embree.occluded(rounded.origin, target) && embreeClosest(scene, embree, rounded).t < 1;

@@ -7,6 +7,7 @@ namespace vkpm {
 
 const uint maxPathsAtOnce = 1u << 16; // small enough that the state of the paths stays in a CPU's cache
 const uint maxBounces = 10'000;
+const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
@@ -46,8 +47,8 @@ RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps
 
     // Batches of bounces, until the device says that no path is left.
     std::vector<Queue> queues;
-    for (uint index = 0, batch = 4; index < maxBounces; batch = std::min(2 * batch, 64u)) {
-        for (uint end = std::min(index + batch, maxBounces); index < end; index++) bounce(recording, pass, first, index, maps);
+    for (uint index = 0; index < maxBounces;) {
+        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, first, index, maps);
         recording.submit();
         queues = compaction.queues.download();
         if (queues[QUEUE_CONTINUE].count == 0) break;

@@ -1,10 +1,10 @@
 /// The photon loop: emit, then trace, scatter and deposit until no photon is under way.
 #include "render/photon_tracing.h"
-#include <algorithm>
 
 namespace vkpm {
 
 const uint maxBounces = 10'000;
+const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
 PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     emitted += other.emitted;
@@ -45,8 +45,8 @@ PhotonLedger PhotonTracing::attempt(uint pass) {
 
     // Batches of bounces, until the device says that no photon is left.
     std::vector<Queue> queues;
-    for (uint index = 0, batch = 8; index < maxBounces; batch = std::min(2 * batch, 64u)) {
-        for (uint end = std::min(index + batch, maxBounces); index < end; index++) bounce(recording, pass, index);
+    for (uint index = 0; index < maxBounces;) {
+        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, index);
         recording.submit();
         queues = compaction.queues.download();
         if (queues[QUEUE_CONTINUE].count == 0) break;
