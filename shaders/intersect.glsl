@@ -6,12 +6,15 @@ struct Ray {
     vec3 direction;
     vec3 inverse; // of the direction, finite
     vec3 shear;   // Woop's S: direction's two minor components over the major one, and 1 / major
-    uint axis;    // of the largest component of the direction
+    uvec3 axes;   // minor, minor, and that of the largest component of the direction, in cyclic order
+    vec3 permuted; // origin in the order of the axes
+    uvec3 near;    // which of a box's six numbers (low, high) are its near planes
+    uvec3 far;
 };
 
 // Puts the major axis last; a cyclic exchange, so that orientation stays.
-vec3 permute(vec3 v, uint axis) {
-    return axis == 2u ? v : axis == 0u ? v.yzx : v.zxy;
+vec3 permute(vec3 v, uint major) {
+    return major == 2u ? v : major == 0u ? v.yzx : v.zxy;
 }
 
 Ray makeRay(vec3 origin, vec3 direction) {
@@ -20,26 +23,33 @@ Ray makeRay(vec3 origin, vec3 direction) {
     uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
     vec3 p = permute(direction, axis);
     vec3 safe = mix(direction, vec3(tiny), lessThan(a, vec3(tiny)));
-    return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axis);
+    uvec3 axes = axis == 2u ? uvec3(0u, 1u, 2u) : axis == 0u ? uvec3(1u, 2u, 0u) : uvec3(2u, 0u, 1u);
+    return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axes, permute(origin, axis),
+        uvec3(0u, 1u, 2u) + 3u * uvec3(lessThan(safe, vec3(0.0))), uvec3(3u, 4u, 5u) - 3u * uvec3(lessThan(safe, vec3(0.0))));
 }
 
-// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013).
-float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
-    vec3 t0 = (low - ray.origin) * ray.inverse;
-    vec3 t1 = (high - ray.origin) * ray.inverse;
-    vec3 near = min(t0, t1);
-    vec3 far = max(t0, t1);
+// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013). The near planes are those
+// that the ray's direction meets first.
+float intersectSlabs(Ray ray, vec3 nearPlanes, vec3 farPlanes, float tMax) {
+    vec3 near = (nearPlanes - ray.origin) * ray.inverse;
+    vec3 far = (farPlanes - ray.origin) * ray.inverse;
     float enter = max(max(near.x, near.y), max(near.z, 0.0));
     float leave = min(min(far.x, far.y), min(far.z, tMax)) * 1.0000008;
     return enter <= leave ? enter : INFINITY;
 }
 
+float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
+    bvec3 backwards = lessThan(ray.inverse, vec3(0.0));
+    return intersectSlabs(ray, mix(low, high, backwards), mix(high, low, backwards), tMax);
+}
+
 // Watertight (Woop, Benthin & Wald 2013): neighbours compute a shared edge from the same products,
-// so `precise` matters, and points on an edge belong to both. Returns t, or -1; weights of b and c.
-float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
-    precise vec3 pa = permute(a - ray.origin, ray.axis);
-    precise vec3 pb = permute(b - ray.origin, ray.axis);
-    precise vec3 pc = permute(c - ray.origin, ray.axis);
+// so `precise` matters, and points on an edge belong to both. Returns t, or -1; weights of b and c. The vertices' components
+// are in the order of the ray's axes.
+float intersectPermuted(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
+    precise vec3 pa = a - ray.permuted;
+    precise vec3 pb = b - ray.permuted;
+    precise vec3 pc = c - ray.permuted;
     precise vec2 qa = pa.xy - ray.shear.xy * pa.z;
     precise vec2 qb = pb.xy - ray.shear.xy * pb.z;
     precise vec2 qc = pc.xy - ray.shear.xy * pc.z;
@@ -54,6 +64,11 @@ float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
     precise float t = (u * pa.z + v * pb.z + w * pc.z) * ray.shear.z / determinant;
     weights = vec2(v, w) / determinant;
     return t;
+}
+
+float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
+    uint major = ray.axes.z;
+    return intersectPermuted(ray, permute(a, major), permute(b, major), permute(c, major), weights);
 }
 
 // The nearer root that is > 0, or -1; the discriminant from the distance of the line to the centre,

@@ -79,6 +79,7 @@ struct Node {
     uint left;
     uint right;
 };
+const uint NODE_WORDS = 14u; // floats and indices of a node
 const uint LEAF = 0x80000000u;
 const uint LEAF_SHIFT = 27u;
 const uint LEAF_FIRST = 0x07ffffffu;
@@ -92,6 +93,7 @@ struct Leaf {
     vec3 c;
     uint id;
 };
+const uint LEAF_WORDS = 10u;
 BUFFER(Leaf)
 
 /// A primitive as shading reads it, in the order of the scene: triangles first, then spheres.
