@@ -10,6 +10,7 @@
 #include "output/statistics.h"
 #include "render/radius.h"
 #include "render/renderer.h"
+#include "scene/settings_json.h"
 #include <chrono>
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ static std::uint64_t nonfiniteOf(const Renderer& renderer) {
 }
 
 static Statistics statisticsOf(const Gpu& gpu, const Renderer& renderer, const Settings& settings) {
-    Statistics s{.device = fmt::format("{} ({})", gpu.info().name, gpu.info().driver), .seed = settings.seed, .passes = renderer.passes()};
+    Statistics s{.device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver), .seed = settings.seed, .passes = renderer.passes()};
     for (const auto& [name, time] : gpu.times) s.stages.emplace_back(name, time.seconds);
     for (const auto& [name, bytes] : gpu.memory)
         if (bytes > 0) s.buffers.emplace_back(name, bytes);
@@ -59,6 +60,8 @@ static void save(const Options& options, const Scene& scene, Renderer& renderer,
     Image image = filmImage(renderer.film.download(), settings.size, renderer.passes());
     image.attributes = {{"version", VKPM_VERSION},
                         {"scene", scene.text},
+                        {"settings", settingsJson(settings)},
+                        {"settingsHash", hashText(scene.text + settingsJson(settings))},
                         {"seed", std::to_string(settings.seed)},
                         {"passes", std::to_string(renderer.passes())},
                         {"seconds", fmt::format("{:.3f}", statistics.renderSeconds)},

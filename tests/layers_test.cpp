@@ -57,13 +57,13 @@ struct Case {
     double bias; // of an image mean that the radii may cause, relative
 };
 
-// The bias of a disc at the edges of walls: a disc of radius r loses 0.21 r per length of edge, and the gathers see an edge's
-// surroundings at 0.4 r / (side of the wall) on the average; `bias` is that figure for the scene.
+// The bias of discs at the edges of walls: a disc of radius r loses 0.21 r per length of edge, which for the walls of the box
+// (side 2) is 0.42 r, 0.25 % of the indirect light at the radii used here; `bias` is that much. The rest is noise: 4 sigma.
 void expectAgreement(const Case& c) {
     const Scene scene = shippedScene(c.scene);
     Settings settings = scene.settings;
-    settings.size = {64, 64};
-    settings.photons = settings.causticPhotons = 50'000;
+    settings.size = {48, 48};
+    settings.photons = settings.causticPhotons = 30'000;
     settings.radius = c.radius;
     settings.causticRadius = c.causticRadius;
     const Renders photon = renderSeeds(scene, settings, c.photonPasses);
@@ -79,22 +79,22 @@ void expectAgreement(const Case& c) {
     }
 }
 
-TEST(Layers, BoxAgreesWithThePathTracer) { expectAgreement({"box", 0.006f, 0.01f, 64, 32, 0.002}); }
-TEST(Layers, DiffuseBoxAgreesWithThePathTracer) { expectAgreement({"diffuse_box", 0.006f, 0.01f, 64, 32, 0.002}); }
-TEST(Layers, RingAgreesWithThePathTracer) { expectAgreement({"ring", 0.015f, 0.015f, 128, 32, 0.002}); }
-TEST(Layers, PoolAgreesWithThePathTracer) { expectAgreement({"pool", 0.015f, 0.015f, 128, 32, 0.002}); }
+TEST(Layers, BoxAgreesWithThePathTracer) { expectAgreement({"box", 0.006f, 0.01f, 64, 16, 0.003}); }
+TEST(Layers, DiffuseBoxAgreesWithThePathTracer) { expectAgreement({"diffuse_box", 0.006f, 0.01f, 64, 16, 0.003}); }
+TEST(Layers, RingAgreesWithThePathTracer) { expectAgreement({"ring", 0.015f, 0.015f, 64, 16, 0.003}); }
+TEST(Layers, PoolAgreesWithThePathTracer) { expectAgreement({"pool", 0.015f, 0.015f, 64, 16, 0.003}); }
 
 // At equal passes the photon integrator's caustic and indirect light are nearer to the truth than the path tracer's.
 TEST(Layers, BoxIsNearerToTheTruthAtEqualPasses) {
     const Scene scene = shippedScene("box");
     Settings settings = scene.settings;
-    settings.size = {64, 64};
-    settings.photons = settings.causticPhotons = 100'000;
+    settings.size = {48, 48};
+    settings.photons = settings.causticPhotons = 50'000;
     const Renders photon = renderSeeds(scene, settings, 8);
     settings.integrator = INTEGRATOR_PATH;
     const std::vector<Pixel> path = renderPasses(scene, settings, 8).pixels;
     settings.seed = 1000;
-    const std::vector<Pixel> truth = renderPasses(scene, settings, 1024).pixels;
+    const std::vector<Pixel> truth = renderPasses(scene, settings, 512).pixels;
     for (const auto& [layer, factor] : {std::pair{LAYER_DIRECT, 1.05}, {LAYER_CAUSTIC, 0.2}, {LAYER_INDIRECT, 1.0}}) {
         const double ours = relMse(photon.first, truth, layer);
         const double theirs = relMse(path, truth, layer);

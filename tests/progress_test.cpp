@@ -5,7 +5,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <array>
 #include <fcntl.h>
+#include <poll.h>
 #include <gmock/gmock.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -71,8 +73,14 @@ TEST(Progress, RedrawsOneLineOnATerminalAndEndsIt) {
         Progress progress(200, false, file);
         for (uint i = 1; i <= 150; ++i) progress.update(i, i * 1000, i * 0.01);
     }
-    std::string text(20'000, ' ');
-    text.resize(static_cast<size_t>(std::max<ssize_t>(0, ::read(master, text.data(), text.size()))));
+    // The terminal hands its text on in parts, after a while.
+    std::string text;
+    for (pollfd ready{master, POLLIN, 0}; !text.ends_with('\n') && ::poll(&ready, 1, 5'000) > 0;) {
+        std::array<char, 4096> part{};
+        const ssize_t length = ::read(master, part.data(), part.size());
+        if (length <= 0) break;
+        text.append(part.data(), static_cast<size_t>(length));
+    }
     std::fclose(file);
     ::close(master);
     const auto draws = std::ranges::count(text, '[');

@@ -59,6 +59,9 @@ static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device
     need(v13.maintenance4, "maintenance4");
     need(limits.maxPushConstantsSize >= 128, "128 bytes of push constants");
     need(limits.maxComputeSharedMemorySize >= 16384, "16 KiB of shared memory");
+    const auto subgroup = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties>()
+                              .get<vk::PhysicalDeviceVulkan11Properties>();
+    need(bool(subgroup.subgroupSupportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic), "subgroup arithmetic");
     need(limits.maxComputeWorkGroupInvocations >= 64, "64 invocations in a work group");
     need(computeFamily(device) >= 0, "a compute queue");
     return lacks;

@@ -1,19 +1,14 @@
 /// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files here use.
 #pragma once
+#include "gpu/error.h"
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vkpm {
-
-/// The environment failed: no device, a failing driver, no memory. Says the call, the cause and what helps. Exit code 1.
-struct GpuError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 struct DeviceInfo {
     std::string name;

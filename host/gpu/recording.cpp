@@ -28,7 +28,7 @@ struct Recording::Handles {
     void stamp(std::string name) {
         barrier();
         names.push_back(std::move(name));
-        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
+        if (gpu.handles->nanosecondsPerTick > 0) commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
     }
 
     void bind(const RawKernel& kernel, const void* args, std::uint32_t bytes) {
@@ -49,7 +49,7 @@ void Recording::begin() {
     auto buffers = vk.device.allocateCommandBuffers({.commandPool = *vk.commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
     handles->commands = std::move(buffers[0]);
     handles->commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
+    if (vk.nanosecondsPerTick > 0) handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
     handles->open = true;
 }
 
@@ -78,6 +78,20 @@ void Recording::clear(const RawBuffer& buffer) {
     handles->stamp("clear");
 }
 
+// Time between two stamps belongs to the run between them; a queue without stamps gives no times.
+void Recording::addTimes() {
+    const auto& vk = *handles->gpu.handles;
+    if (vk.nanosecondsPerTick <= 0) return;
+    const auto count = static_cast<std::uint32_t>(handles->names.size()) + 1;
+    const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++) {
+        KernelTime& time = handles->gpu.times[handles->names[i]];
+        time.seconds += double(ticks[i + 1] - ticks[i]) * vk.nanosecondsPerTick * 1e-9;
+        time.dispatches++;
+    }
+}
+
 void Recording::submit() {
     if (!handles->open) return;
     const auto& vk = *handles->gpu.handles;
@@ -90,15 +104,7 @@ void Recording::submit() {
         const vk::Result result = vk.device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
     });
-    // Time between two stamps belongs to the run between them.
-    const auto count = static_cast<std::uint32_t>(handles->names.size()) + 1;
-    const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-    for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++) {
-        KernelTime& time = handles->gpu.times[handles->names[i]];
-        time.seconds += double(ticks[i + 1] - ticks[i]) * handles->gpu.handles->nanosecondsPerTick * 1e-9;
-        time.dispatches++;
-    }
+    addTimes();
     handles->names.clear();
     handles->open = false;
 }

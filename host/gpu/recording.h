@@ -29,6 +29,7 @@ private:
     void dispatch(const RawKernel& kernel, std::uint64_t threads, const void* args, std::uint32_t bytes);
     void dispatchIndirect(const RawKernel& kernel, const RawBuffer& queues, std::uint64_t offset, const void* args, std::uint32_t bytes);
     void begin();
+    void addTimes();
 
     struct Handles;
     std::unique_ptr<Handles> handles;

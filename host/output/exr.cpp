@@ -1,7 +1,7 @@
 /// Images in OpenEXR files.
 #include "output/exr.h"
 #include "output/atomic_file.h"
-#include "scene/scene.h"
+#include "gpu/error.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

@@ -25,7 +25,8 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set)
     if (needsGlobal(settings) && settings.photons > 0) construct(global, MapKind::global, settings.photons);
     else absent.push_back(settings.photons ? "global map: the integrator does not use it" : "global map: no photons asked for");
     if (needsCaustic(settings, sceneHas) && settings.causticPhotons > 0) construct(caustic, MapKind::caustic, settings.causticPhotons);
-    else absent.push_back(sceneHas.hasMirror || sceneHas.hasGlass ? "caustic map: the integrator does not use it" : "caustic map: no specular surface");
+    else if (!sceneHas.hasMirror && !sceneHas.hasGlass) absent.push_back("caustic map: no specular surface");
+    else absent.push_back(settings.causticPhotons ? "caustic map: the integrator does not use it" : "caustic map: no photons asked for");
 }
 
 void Renderer::buildMap(std::optional<MapStages>& stages, uint photons, float radius) {

@@ -1,19 +1,14 @@
 /// A scene as arrays of the structs that kernels read, and the loader that fills them from a JSON file.
 #pragma once
+#include "gpu/error.h"
 #include "settings.h"
 #include "shared.h"
 #include <filesystem>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace vkpm {
-
-/// The user's input is wrong; what() says file, place, what was found and what is allowed. Exit code 2.
-struct InputError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 struct Bounds {
     vec3 low{std::numeric_limits<float>::infinity()};

@@ -1,0 +1,14 @@
+/// Settings as text, for the files that a render writes.
+#pragma once
+#include "settings.h"
+#include <string>
+
+namespace vkpm {
+
+/// One JSON object with the keys of a scene's `settings`, and those of the command line beside them.
+std::string settingsJson(const Settings& settings);
+
+/// 16 hexadecimal digits that differ if a text differs (FNV-1a, Fowler, Noll & Vo 1991).
+std::string hashText(const std::string& text);
+
+} // namespace vkpm

@@ -1,0 +1,149 @@
+/// The program as its users run it: exit codes, files, refusals, determinism, and what an interrupt leaves.
+#include "output/exr.h"
+#include "output/image.h"
+#include "scene_text.h"
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <thread>
+
+namespace vkpm {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Result {
+    int code = 0;
+    std::string output; // stdout and stderr
+};
+
+class Program : public testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() / ("vkpm-program-test-" + std::to_string(::getpid()));
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Result run(const std::string& arguments) const {
+        const fs::path log = folder / "log.txt";
+        const std::string command = "cd '" + folder.string() + "' && '" VKPM_PROGRAM "' " + arguments + " > '" + log.string() + "' 2>&1";
+        const int status = std::system(command.c_str());
+        std::ifstream file(log);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
+    }
+
+    static std::string scene(const std::string& name) { return std::string(VKPM_SCENES) + "/" + name + ".json"; }
+    const std::string small = " --size 24x16 --passes 2 --photons 500 --caustic-photons 500 ";
+
+    fs::path folder;
+};
+
+void expectSameChannels(const fs::path& a, const fs::path& b) {
+    const Image first = readExr(a);
+    const Image second = readExr(b);
+    ASSERT_EQ(first.channels.size(), second.channels.size());
+    for (std::size_t i = 0; i < first.channels.size(); i++) {
+        EXPECT_EQ(first.channels[i].name, second.channels[i].name);
+        EXPECT_EQ(first.channels[i].values, second.channels[i].values) << first.channels[i].name;
+    }
+}
+
+TEST_F(Program, RendersEveryShippedSceneWithoutLossOrNonfinite) {
+    for (const char* name : {"box", "diffuse_box", "ring", "glass", "pool"}) {
+        const Result result = run("--scene " + scene(name) + small + "--stats stats.json --quiet");
+        EXPECT_EQ(result.code, 0) << result.output;
+        EXPECT_EQ(result.output, "");
+        EXPECT_TRUE(fs::exists(folder / (std::string(name) + ".exr")) && fs::exists(folder / (std::string(name) + ".png")));
+        const auto stats = nlohmann::json::parse(std::ifstream(folder / "stats.json"));
+        EXPECT_EQ(stats["nonfinite"], 0);
+        for (const char* map : {"global", "caustic"}) {
+            const auto& p = stats["photons"][map];
+            EXPECT_EQ(p["emitted"].get<int>(), p["absorbed"].get<int>() + p["escaped"].get<int>() + p["lost"].get<int>()) << name << map;
+            EXPECT_EQ(p["lost"], 0);
+        }
+    }
+}
+
+TEST_F(Program, EveryIntegratorKernelAndViewRenders) {
+    for (const char* options : {"--integrator path", "--integrator direct", "--integrator photon-map --show points",
+                                "--integrator photon-map --map caustic", "--integrator photon-map --map caustic --show points",
+                                "--kernel cone", "--kernel gauss", "--kernel epanechnikov", "--nearest 10", "--fresnel schlick", "--seed 7"}) {
+        const Result result = run("--scene " + scene("box") + small + options + " --quiet -o x.exr");
+        EXPECT_EQ(result.code, 0) << options << result.output;
+    }
+}
+
+TEST_F(Program, TwoRunsWriteTheSameBitsInEveryChannel) {
+    for (const char* file : {"a.exr", "b.exr"}) EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o " + file).code, 0);
+    expectSameChannels(folder / "a.exr", folder / "b.exr");
+}
+
+TEST_F(Program, LayersSumToBeauty) {
+    ASSERT_EQ(run("--scene " + scene("box") + small + "--quiet -o a.exr").code, 0);
+    std::map<std::string, std::vector<float>> channels;
+    for (const Channel& channel : readExr(folder / "a.exr").channels) channels[channel.name] = channel.values;
+    for (const std::string c : {"R", "G", "B"})
+        for (std::size_t i = 0; i < channels[c].size(); i++) {
+            double sum = 0;
+            for (const char* layer : {"emission.", "direct.", "specular.", "caustic.", "indirect."}) sum += channels.at(layer + c)[i];
+            EXPECT_NEAR(channels[c][i], sum, 1e-6 * (1 + sum));
+        }
+}
+
+TEST_F(Program, RefusalsNameFileAndPlace) {
+    const std::pair<const char*, const char*> refusals[] = {
+        {R"({"shapes": []})", "/shapes"},
+        {R"({"materials": {}, "colour": 1, "shapes": []})", "/colour"},
+        {R"({"shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": -1, "emission": 1}]})", "/shapes/0/radius"},
+        {R"({"shapes": [{"type": "mesh", "file": "nothere.obj", "emission": 1}]})", "/shapes/0/file"},
+        {R"({"shapes": [{"type": "sphere", "center": [0, 0, NaN], "radius": 1, "emission": 1}]})", "scene.json:1:"}};
+    for (const auto& [text, place] : refusals) {
+        std::ofstream(folder / "scene.json") << text;
+        const Result result = run("--scene scene.json");
+        EXPECT_EQ(result.code, 2) << text;
+        EXPECT_THAT(result.output, testing::AllOf(HasSubstr("scene.json"), HasSubstr(place))) << text;
+        EXPECT_FALSE(fs::exists(folder / "scene.exr"));
+    }
+    EXPECT_EQ(run("--scene nothere.json").code, 2);
+    EXPECT_EQ(run("--frobnicate").code, 2);
+    EXPECT_EQ(run("view --scene " + scene("box")).code, 2); // no window in this version
+    EXPECT_EQ(run("--scene " + scene("box") + " --device nosuchdevice").code, 1);
+}
+
+TEST_F(Program, DevicesShowsAPassedAudit) {
+    const Result result = run("devices --json");
+    EXPECT_EQ(result.code, 0);
+    const auto devices = nlohmann::json::parse(result.output);
+    ASSERT_GE(devices.size(), 1u);
+    EXPECT_GE(devices[0]["audit"].size(), 5u);
+    for (const auto& test : devices[0]["audit"]) EXPECT_TRUE(test["passed"].get<bool>()) << test;
+}
+
+// Ctrl-C after some passes: exit 130, and the file holds what was rendered.
+TEST_F(Program, InterruptSavesWhatThereIs) {
+    const fs::path output = folder / "box.exr";
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const std::string file = scene("box");
+        ::execl(VKPM_PROGRAM, VKPM_PROGRAM, "--scene", file.c_str(), "--size", "24x16", "--passes", "1000000", "--photons", "500",
+                "--caustic-photons", "500", "--quiet", "-o", output.c_str(), nullptr);
+        ::_exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(8));
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    const Image image = readExr(output);
+    EXPECT_GE(std::stoi(image.attributes.at("passes")), 1);
+}
+
+} // namespace
+} // namespace vkpm
