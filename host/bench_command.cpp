@@ -1,5 +1,6 @@
-/// vkpm bench: how fast rays, sorting and memory are, each beside a yardstick measured in the same run.
+/// vkpm bench: how fast rays, sorting, gathers and memory are, each beside a yardstick measured in the same run.
 #include "bench/bench_scene.h"
+#include "bench/gather.h"
 #include "bench/memory.h"
 #include "bench/rays.h"
 #include "commands.h"
@@ -12,6 +13,7 @@ namespace vkpm {
 static std::vector<Measurement> measureAll(Gpu& gpu, const Scene& scene) {
     std::vector<Measurement> all = measureRays(gpu, scene);
     all.push_back(measureSort(gpu));
+    all.push_back(measureGather(gpu, scene));
     for (Measurement& copy : measureCopies(gpu)) all.push_back(std::move(copy));
     return all;
 }
@@ -34,9 +36,9 @@ static std::string quantity(double value, const std::string& unit) {
 static void printTable(const nlohmann::ordered_json& about, const std::vector<Measurement>& all) {
     for (const auto& [key, value] : about.items())
         fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-    fmt::print("\n{:<14} {:>14} {:>14} {:>7}  {}\n", "", "vkpm", "yardstick", "ratio", "yardstick is");
+    fmt::print("\n{:<14} {:>15} {:>15} {:>7}  {}\n", "", "vkpm", "yardstick", "ratio", "yardstick is");
     for (const Measurement& m : all)
-        fmt::print("{:<14} {:>14} {:>14} {:>7.3f}  {}\n", m.name, quantity(m.vkpm, m.unit),
+        fmt::print("{:<14} {:>15} {:>15} {:>7.3f}  {}\n", m.name, quantity(m.vkpm, m.unit),
                    quantity(m.yardstick, m.unit), m.ratio, m.against);
     fmt::print("\nMedians of warm runs in pairs; ratio is vkpm over yardstick (of ms, less is better).\n"
                "vkpm by the kernels' time stamps, yardsticks by the wall clock, on all threads.\n");

@@ -1,23 +1,9 @@
 /// How the rays of the benchmark are made.
+#include "bench/random.h"
 #include "bench/rays.h"
-#include <glm/gtc/constants.hpp>
-#include <random>
 
 namespace vkpm {
 namespace {
-
-class Random {
-public:
-    float uniform() { return std::uniform_real_distribution<float>()(engine); }
-    uint below(std::size_t count) { return static_cast<uint>(engine() % count); }
-    vec3 direction() {
-        const float z = 1 - 2 * uniform(), phi = glm::two_pi<float>() * uniform();
-        return vec3(std::sqrt(1 - z * z) * vec2(std::cos(phi), std::sin(phi)), z);
-    }
-
-private:
-    std::mt19937 engine{1};
-};
 
 /// A point where a primary ray ends, moved off the surface, and the normal there, both on the viewer's side.
 struct Point {

@@ -1,25 +1,12 @@
 /// The speed of rays: the kernels of a render beside Embree's queries for single rays.
 #include "bench/rays.h"
+#include "bench/whole_queue.h"
 #include "gpu/recording.h"
 #include "render/device_scene.h"
-#include <numeric>
 #include <tbb/parallel_for.h>
 
 namespace vkpm {
 namespace {
-
-/// A queue of all elements of a list that is 0, 1, 2 ...
-struct WholeQueue {
-    WholeQueue(Gpu& gpu, std::size_t count) : queue(gpu, "bench queue", 1), list(gpu, "bench list", count) {
-        const Queue whole{.count = static_cast<uint>(count)};
-        queue.upload(std::span(&whole, 1));
-        std::vector<uint> identity(count);
-        std::iota(identity.begin(), identity.end(), 0);
-        list.upload(identity);
-    }
-    Buffer<Queue> queue;
-    Buffer<uint> list;
-};
 
 template <class Work> void onAllThreads(std::size_t count, const Work& work) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
