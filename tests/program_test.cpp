@@ -97,10 +97,10 @@ TEST_F(Program, LayersSumToBeauty) {
 
 TEST_F(Program, RefusalsNameFileAndPlace) {
     const std::pair<const char*, const char*> refusals[] = {
-        {R"({"shapes": []})", "/shapes"},
-        {R"({"materials": {}, "colour": 1, "shapes": []})", "/colour"},
-        {R"({"shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": -1, "emission": 1}]})", "/shapes/0/radius"},
-        {R"({"shapes": [{"type": "mesh", "file": "nothere.obj", "emission": 1}]})", "/shapes/0/file"},
+        {R"({"camera": {"origin": [0, 0, 3], "target": [0, 0, 0], "fieldOfView": 40}, "shapes": []})", "/shapes"},
+        {R"({"camera": {"origin": [0, 0, 3], "target": [0, 0, 0], "fieldOfView": 40}, "materials": {}, "colour": 1, "shapes": []})", "/colour"},
+        {R"({"camera": {"origin": [0, 0, 3], "target": [0, 0, 0], "fieldOfView": 40}, "shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": -1, "emission": 1}]})", "/shapes/0/radius"},
+        {R"({"camera": {"origin": [0, 0, 3], "target": [0, 0, 0], "fieldOfView": 40}, "shapes": [{"type": "mesh", "file": "nothere.obj", "emission": 1}]})", "/shapes/0/file"},
         {R"({"shapes": [{"type": "sphere", "center": [0, 0, NaN], "radius": 1, "emission": 1}]})", "scene.json:1:"}};
     for (const auto& [text, place] : refusals) {
         std::ofstream(folder / "scene.json") << text;
