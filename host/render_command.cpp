@@ -64,8 +64,9 @@ static void save(const Options& options, const Scene& scene, Renderer& renderer,
                         {"settingsHash", hashText(scene.text + settingsJson(settings))},
                         {"seed", std::to_string(settings.seed)},
                         {"passes", std::to_string(renderer.passes())},
-                        {"seconds", fmt::format("{:.3f}", statistics.renderSeconds)},
                         {"device", statistics.device}};
+    // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
+    if (options.stats) image.attributes["seconds"] = fmt::format("{:.3f}", statistics.renderSeconds);
     writeExr(options.output, image);
     std::filesystem::path png = options.output;
     writePng(png.replace_extension(".png"), settings.size, renderer.film.develop(settings.exposure));

@@ -43,14 +43,9 @@ protected:
     fs::path folder;
 };
 
-void expectSameChannels(const fs::path& a, const fs::path& b) {
-    const Image first = readExr(a);
-    const Image second = readExr(b);
-    ASSERT_EQ(first.channels.size(), second.channels.size());
-    for (std::size_t i = 0; i < first.channels.size(); i++) {
-        EXPECT_EQ(first.channels[i].name, second.channels[i].name);
-        EXPECT_EQ(first.channels[i].values, second.channels[i].values) << first.channels[i].name;
-    }
+std::string bytesOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST_F(Program, RendersEveryShippedSceneWithoutLossOrNonfinite) {
@@ -78,9 +73,11 @@ TEST_F(Program, EveryIntegratorKernelAndViewRenders) {
     }
 }
 
-TEST_F(Program, TwoRunsWriteTheSameBitsInEveryChannel) {
+TEST_F(Program, TwoRunsWriteTheSameFiles) {
     for (const char* file : {"a.exr", "b.exr"}) EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o " + file).code, 0);
-    expectSameChannels(folder / "a.exr", folder / "b.exr");
+    EXPECT_TRUE(bytesOf(folder / "a.exr") == bytesOf(folder / "b.exr"));
+    EXPECT_TRUE(bytesOf(folder / "a.png") == bytesOf(folder / "b.png"));
+    EXPECT_GT(fs::file_size(folder / "a.exr"), 1000u);
 }
 
 TEST_F(Program, LayersSumToBeauty) {
@@ -127,15 +124,18 @@ TEST_F(Program, DevicesShowsAPassedAudit) {
 // Ctrl-C after some passes: exit 130, and the file holds what was rendered.
 TEST_F(Program, InterruptSavesWhatThereIs) {
     const fs::path output = folder / "box.exr";
+    const fs::path log = folder / "progress.txt";
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
         const std::string file = scene("box");
+        if (!std::freopen(log.c_str(), "w", stderr)) ::_exit(126);
         ::execl(VKPM_PROGRAM, VKPM_PROGRAM, "--scene", file.c_str(), "--size", "24x16", "--passes", "1000000", "--photons", "500",
-                "--caustic-photons", "500", "--quiet", "-o", output.c_str(), nullptr);
+                "--caustic-photons", "500", "-o", output.c_str(), nullptr);
         ::_exit(127);
     }
-    std::this_thread::sleep_for(std::chrono::seconds(8));
+    for (int tenths = 0; tenths < 1200 && bytesOf(log).find("pass 1/") == std::string::npos; tenths++)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ::kill(child, SIGINT);
     int status = 0;
     ::waitpid(child, &status, 0);
