@@ -160,19 +160,23 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     return vk;
 }
 
-void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const {
     attempt("running commands on the device", "another program may have hung or reset it", [&] {
-        const auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
-        buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        record(buffers[0]);
-        buffers[0].end();
-        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *buffers[0]};
+        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *recorded};
         const vk::SubmitInfo2 submit{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo};
         const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
         queue.submit2(submit, *fence);
         const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
     });
+}
+
+void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+    const auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(buffers[0]);
+    buffers[0].end();
+    submitAndWait(buffers[0]);
 }
 
 Gpu::Gpu(std::string_view wanted) : handles(open(wanted)) {}

@@ -21,6 +21,8 @@ struct Gpu::Handles {
     bool mapsDeviceMemory = false; // the host can write device memory directly
     DeviceInfo info;
 
+    /// Submits recorded commands and waits until they are done.
+    void submitAndWait(const vk::raii::CommandBuffer& commands) const;
     /// Records commands, submits them and waits until they are done.
     void execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 };

@@ -94,16 +94,8 @@ void Recording::addTimes() {
 
 void Recording::submit() {
     if (!handles->open) return;
-    const auto& vk = *handles->gpu.handles;
-    attempt("running kernels on the device", "another program may have hung or reset it", [&] {
-        handles->commands.end();
-        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *handles->commands};
-        const vk::SubmitInfo2 submit{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo};
-        const vk::raii::Fence fence(vk.device, vk::FenceCreateInfo{});
-        vk.queue.submit2(submit, *fence);
-        const vk::Result result = vk.device.waitForFences(*fence, true, UINT64_MAX);
-        if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
-    });
+    handles->commands.end();
+    handles->gpu.handles->submitAndWait(handles->commands);
     addTimes();
     handles->names.clear();
     handles->open = false;
