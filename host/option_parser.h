@@ -77,6 +77,29 @@ inline float radiusOf(const std::string& option, const std::string& text) {
     return *value;
 }
 
+inline double secondsOf(const std::string& option, const std::string& text) {
+    const auto value = numberOf<double>(text);
+    if (!value || *value <= 0) refuse(option, text, "a number of seconds above 0, such as 60");
+    return *value;
+}
+
+inline float alphaOf(const std::string& option, const std::string& text) {
+    const auto value = numberOf<float>(text);
+    if (!value || *value <= 0 || *value > 1) refuse(option, text, "a number above 0, at most 1, such as 0.6667");
+    return *value;
+}
+
+inline PassRange passRangeOf(const std::string& option, const std::string& text) {
+    const size_t colon = std::min(text.find(':'), text.size());
+    const auto number = [](const std::string& digits) { return numberOf<double>(digits).value_or(-1); };
+    const double begin = number(text.substr(0, colon));
+    const double end = colon < text.size() ? number(text.substr(colon + 1)) : -1;
+    const bool whole = begin == std::floor(begin) && end == std::floor(end);
+    if (!whole || begin < 0 || end <= begin || end > MAX_COUNT)
+        refuse(option, text, fmt::format("FIRST:END, whole numbers, FIRST below END, END at most {}, such as 0:16", MAX_COUNT));
+    return {static_cast<uint>(begin), static_cast<uint>(end)};
+}
+
 inline uvec2 sizeOf(const std::string& option, const std::string& text) {
     const auto side = [](const std::string& digits) {
         const double value = numberOf<double>(digits).value_or(0);
@@ -178,6 +201,12 @@ public:
         app.add_flag(name, value, help)->group(heading)->disable_flag_override();
     }
 
+    /// Arguments without a name.
+    void files(const std::string& name, const std::string& help, std::function<void(const std::vector<std::string>&)> take) {
+        app.add_option(name, fileNames, help)->type_name("FILE");
+        positional = [=, this] { take(fileNames); };
+    }
+
     /// Splits the arguments, refuses unknown ones, then takes the values; the text to print for --help, --version.
     std::string parse(std::span<const std::string> arguments) {
         try {
@@ -193,6 +222,7 @@ public:
         }
         refuseUnknown();
         for (const auto& take : pending) take();
+        if (positional) positional();
         return "";
     }
 
@@ -229,6 +259,8 @@ private:
     CLI::App app;
     std::string heading = "Options";
     std::vector<std::function<void()>> pending;
+    std::vector<std::string> fileNames;
+    std::function<void()> positional;
 };
 
 } // namespace vkpm

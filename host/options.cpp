@@ -30,6 +30,11 @@ void addFiles(Parser& parser, Options& options) {
                [&](auto& name, auto& value) { options.output = exrOf(name, value); });
     parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory",
                [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
+    parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
+               [&](auto& name, auto& value) { options.log = outputOf(name, value); });
+    parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
+    parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)",
+               [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
 }
 
 void addImage(Parser& parser, Options& options, const Settings& defaults) {
@@ -42,6 +47,10 @@ void addImage(Parser& parser, Options& options, const Settings& defaults) {
                [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
     count("--passes", fmt::format("passes over the whole image (default {})", defaults.passes), 1, MAX_COUNT,
           options.passes);
+    parser.add("--time", "SECONDS", "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
+               [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
+    parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge",
+               [&](auto& name, auto& value) { options.passRange = passRangeOf(name, value); });
     count("--seed", fmt::format("seed of the random numbers (default {})", defaults.seed), 0, NONE, options.seed);
     parser.words("--integrator", INTEGRATORS,
                  fmt::format("how light is found (default {})", wordOf(INTEGRATORS, defaults.integrator)),
@@ -70,6 +79,8 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
     radius("--caustic-radius", "the same for caustics", options.causticRadius);
     count("--nearest", fmt::format("gather the N nearest within the radius; 0: all (default {})", defaults.nearest),
           options.nearest);
+    parser.add("--alpha", "A", fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
+               [&](auto& name, auto& value) { options.alpha = alphaOf(name, value); });
     parser.words("--kernel", KERNELS,
                  fmt::format("of the density estimate (default {})", wordOf(KERNELS, defaults.kernel)),
                  [&](uint value) { options.kernel = value; });
@@ -77,6 +88,7 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
 
 const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
   render                         render without a window; may be left out
+  merge OUT.exr PART.exr...      put parts that --pass-range rendered together
   devices [--json]               list the Vulkan devices and what each lacks
   bench [--json] [--scene FILE] [--device INDEX|NAME]
                                  measure rays, sort, gather and memory rates
@@ -101,8 +113,16 @@ void requirePhotonMap(const Options& options, uint integrator) {
 void requireRender(Options& options) {
     if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm --scene FILE");
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
-    if (options.stats && options.stats->lexically_normal() == options.output.lexically_normal())
-        refuse("--stats", options.stats->string(), "a file other than that of --output");
+    const auto differ = [](const char* name, const std::optional<fs::path>& file, const char* otherName, const std::optional<fs::path>& other) {
+        if (file && other && file->lexically_normal() == other->lexically_normal())
+            refuse(name, file->string(), fmt::format("a file other than that of {}", otherName));
+    };
+    differ("--stats", options.stats, "--output", options.output);
+    differ("--log", options.log, "--output", options.output);
+    differ("--log", options.log, "--stats", options.stats);
+    if (options.passRange && options.passes && options.passRange->end > *options.passes)
+        refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
+               fmt::format("passes below the {} of --passes", *options.passes));
     if (options.integrator) requirePhotonMap(options, *options.integrator);
 }
 
@@ -121,6 +141,21 @@ Options parseRender(std::span<const std::string> arguments) {
     if (!options.text.empty()) return options;
     requireRender(options);
     options.command = Command::Render;
+    return options;
+}
+
+Options parseMerge(std::span<const std::string> arguments) {
+    Options options;
+    Parser parser("Put parts of one render, made with --pass-range, together.", "vkpm merge OUT.exr PART.exr... [options]");
+    parser.files("files", "the merged image, then its parts in any order", [&](auto& values) {
+        if (values.size() < 2) throw InputError("merge: found fewer than two files; allowed: vkpm merge OUT.exr PART.exr...");
+        options.output = exrOf("OUT.exr", values[0]);
+        options.parts.assign(values.begin() + 1, values.end());
+    });
+    parser.flag("--part", "allow a result that does not begin with pass 0", options.part);
+    addDevice(parser, options);
+    options.text = parser.parse(arguments);
+    if (options.text.empty()) options.command = Command::Merge;
     return options;
 }
 
@@ -159,6 +194,7 @@ Settings Options::override(Settings settings) const {
     set(settings.radius, radius);
     set(settings.causticRadius, causticRadius);
     set(settings.nearest, nearest);
+    set(settings.alpha, alpha);
     set(settings.kernel, kernel);
     set(settings.schlick, schlick);
     set(settings.seed, seed);
@@ -172,12 +208,13 @@ Options parseOptions(int count, const char* const* arguments) {
     const std::span<const std::string> all(words);
     if (all[0].starts_with('-')) return parseRender(all);
     if (all[0] == "render") return parseRender(all.subspan(1));
+    if (all[0] == "merge") return parseMerge(all.subspan(1));
     if (all[0] == "devices") return parseDevices(all.subspan(1));
     if (all[0] == "bench") return parseBench(all.subspan(1));
     const bool isFile = fs::path(all[0]).has_extension();
-    throw InputError(fmt::format("found command \"{}\"; allowed: render, devices, bench{}", all[0],
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, merge, devices, bench{}", all[0],
                                  isFile ? "; a scene is given as --scene " + all[0]
-                                        : suggestion(all[0], {"render", "devices", "bench"})));
+                                        : suggestion(all[0], {"render", "merge", "devices", "bench"})));
 }
 
 } // namespace vkpm

@@ -4,18 +4,26 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vkpm {
 
-enum class Command { Print, Render, Devices, Bench };
+enum class Command { Print, Render, Merge, Devices, Bench };
 
 /// What the command line asks for; what it leaves open is absent.
 struct Options {
     Command command = Command::Print;
     std::string text;             // Print: the help or the version, for stdout
     std::filesystem::path scene;  // bench: empty for its own scene
-    std::filesystem::path output; // render: always set, ends in .exr
+    std::filesystem::path output; // render, merge: always set, ends in .exr
+    std::vector<std::filesystem::path> parts; // merge
+    bool part = false;                        // merge: into what is a part itself
     std::optional<std::filesystem::path> stats;
+    std::optional<std::filesystem::path> log;
+    bool resume = false;
+    std::optional<double> checkpoint;   // seconds between saves
+    std::optional<double> seconds;      // of rendering
+    std::optional<PassRange> passRange;
     std::string device; // index or part of the name; empty: vkpm chooses
     bool json = false;
     bool quiet = false;
@@ -30,6 +38,7 @@ struct Options {
     std::optional<float> radius;
     std::optional<float> causticRadius;
     std::optional<uint> nearest;
+    std::optional<float> alpha;
     std::optional<uint> kernel;
     std::optional<bool> schlick;
     std::optional<uint> seed;

@@ -2,76 +2,187 @@
 #include "commands.h"
 #include "gpu/audit.h"
 #include "output/atomic_file.h"
-#include "output/exr.h"
-#include "output/film_image.h"
+#include "output/event_log.h"
+#include "output/film_runs.h"
 #include "output/interrupt.h"
-#include "output/png.h"
 #include "output/progress.h"
 #include "output/statistics.h"
 #include "render/radius.h"
 #include "render/renderer.h"
+#include "render_file.h"
+#include "scene/identity.h"
 #include "scene/settings_json.h"
 #include <chrono>
 #include <fmt/format.h>
 
 namespace vkpm {
+namespace {
 
 using Clock = std::chrono::steady_clock;
 
-static double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-static PhotonCounts countsOf(const std::optional<MapStages>& stages) {
+PhotonCounts countsOf(const std::optional<MapStages>& stages) {
     if (!stages) return {};
     const PhotonLedger& l = stages->ledger;
     return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
 }
 
-static std::uint64_t raysOf(const Renderer& renderer) {
-    std::uint64_t rays = renderer.rays().paths + renderer.rays().shadow;
+/// One run of the program: a renderer with what was asked for, from the first pass to the saved file.
+class Job {
+public:
+    Job(const Options& opts, const Scene& input, const Settings& set, Gpu& device)
+        : options(opts), scene(input), settings(set), gpu(device), renderer(gpu, scene, settings), log(options.log, options.resume),
+          identity(identityOf(scene, settings)), passes(options.passRange.value_or(PassRange{0, settings.passes})) {
+        if (options.seconds && !options.passes && !options.passRange) passes.end = NONE;
+    }
+
+    /// Goes on from what the output holds, if it is there.
+    void resume();
+    void renderPasses();
+    int finish();
+
+    Clock::time_point start;
+
+private:
+    void requireSame(const RenderFile& file) const;
+    bool done() const;
+    void checkpoint();
+    void save();
+    Statistics statistics() const;
+    std::uint64_t rays() const;
+    std::uint64_t nonfinite() const;
+
+    const Options& options;
+    const Scene& scene;
+    const Settings& settings;
+    Gpu& gpu;
+    Renderer renderer;
+    EventLog log;
+    std::map<std::string, std::string> identity;
+    PassRange passes;
+    uint restored = 0;              // passes that earlier runs rendered,
+    double earlierSeconds = 0;      // the time they took,
+    std::uint64_t earlierNonfinite = 0;
+    Clock::time_point begin{};      // of rendering
+    Clock::time_point saved{};      // last checkpoint
+    double renderSeconds = 0;
+};
+
+std::uint64_t Job::rays() const {
+    std::uint64_t count = renderer.rays().paths + renderer.rays().shadow;
     for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
-        if (*stages) rays += (*stages)->ledger.rays;
-    return rays;
+        if (*stages) count += (*stages)->ledger.rays;
+    return count;
 }
 
-static std::uint64_t nonfiniteOf(const Renderer& renderer) {
-    std::uint64_t count = 0;
+std::uint64_t Job::nonfinite() const {
+    std::uint64_t count = earlierNonfinite;
     for (const std::uint64_t layer : renderer.film.nonfinite()) count += layer;
     for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
         if (*stages) count += (*stages)->ledger.nonfinite;
     return count;
 }
 
-static Statistics statisticsOf(const Gpu& gpu, const Renderer& renderer, const Settings& settings) {
-    Statistics s{.device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver), .seed = settings.seed, .passes = renderer.passes()};
+void Job::requireSame(const RenderFile& file) const {
+    const std::vector<std::string> lines = differences(identity, file.header.attributes);
+    if (!lines.empty())
+        throw InputError(fmt::format("{}: --resume: was rendered from another scene or with other settings; what differs (here asked for, there in the file):\n  {}",
+                                     file.path.string(), fmt::join(lines, "\n  ")));
+    const PassRange held = file.passes();
+    const bool fits = held.begin == passes.begin && (!options.passRange || held.end <= passes.end);
+    if (!fits)
+        throw InputError(fmt::format("{}: --resume: holds {}; allowed: a file that begins with pass {}{}", file.path.string(), describe(held), passes.begin,
+                                     options.passRange ? fmt::format(" and ends with pass {} or before", passes.end - 1) : ""));
+}
+
+void Job::resume() {
+    if (!std::filesystem::exists(options.output)) return;
+    const RenderFile file = openRender(options.output);
+    requireSame(file);
+    const std::string device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver);
+    if (file.attribute("device") != device)
+        fmt::print(stderr, "vkpm: warning: {} was rendered by {}, and goes on on {}: roundings may differ\n", options.output.string(), file.attribute("device"), device);
+    restore(renderer.film, file);
+    restored = renderer.film.passCount();
+    earlierNonfinite = std::strtoull(file.attribute("nonfinite").c_str(), nullptr, 10);
+    earlierSeconds = std::strtod(file.attribute("seconds").c_str(), nullptr);
+    log.write("resume", {{"file", options.output.string()}, {"passes", {file.passes().begin, file.passes().end}}});
+}
+
+/// Whether the passes are there, or the time is nearer now than after another pass.
+bool Job::done() const {
+    const uint rendered = renderer.film.passCount() - restored;
+    if (interrupted() || passes.begin + renderer.film.passCount() >= passes.end) return true;
+    const double elapsed = secondsSince(begin);
+    return options.seconds && restored + rendered > 0 && elapsed + 0.5 * elapsed / std::max(rendered, 1u) >= *options.seconds;
+}
+
+void Job::renderPasses() {
+    begin = saved = Clock::now();
+    log.write("start", {{"scene", options.scene.string()}, {"settings", nlohmann::ordered_json::parse(settingsJson(settings))},
+                        {"passes", {passes.begin, passes.end}}, {"device", gpu.info().name}});
+    Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), restored}, options.quiet);
+    while (!done()) {
+        const uint pass = passes.begin + renderer.film.passCount();
+        renderer.renderPass(pass);
+        log.write("pass", {{"pass", pass}, {"rays", rays()}, {"radiusFactor", radiusFactor(pass, settings.alpha)}});
+        progress.update(renderer.film.passCount(), rays());
+        if (options.checkpoint && !done() && secondsSince(saved) >= *options.checkpoint) checkpoint();
+    }
+    renderSeconds = secondsSince(begin);
+}
+
+/// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
+void Job::checkpoint() {
+    try {
+        save();
+        log.write("checkpoint", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}});
+    } catch (const std::runtime_error& error) {
+        fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", error.what());
+        log.write("checkpoint failed", {{"cause", error.what()}});
+    }
+    saved = Clock::now();
+}
+
+void Job::save() {
+    std::map<std::string, std::string> attributes = identity;
+    attributes["device"] = fmt::format("{}, {}", gpu.info().name, gpu.info().driver);
+    attributes["nonfinite"] = std::to_string(nonfinite());
+    // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
+    if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(begin));
+    saveRender(options.output, renderer.film, settings.size, settings.exposure, std::move(attributes));
+}
+
+Statistics Job::statistics() const {
+    Statistics s{.device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver), .seed = settings.seed, .passes = renderer.film.passCount()};
     for (const auto& [name, time] : gpu.times) s.stages.emplace_back(name, time.seconds);
     for (const auto& [name, bytes] : gpu.memory)
         if (bytes > 0) s.buffers.emplace_back(name, bytes);
     s.deviceBytes = gpu.peakBytes;
-    s.rays = raysOf(renderer);
+    s.rays = rays();
     s.global = countsOf(renderer.globalMap());
     s.caustic = countsOf(renderer.causticMap());
     s.features = renderer.features();
     s.leftOut = renderer.leftOut();
-    s.nonfinite = nonfiniteOf(renderer);
+    s.nonfinite = nonfinite();
+    s.setupSeconds = std::chrono::duration<double>(begin - start).count();
+    s.renderSeconds = renderSeconds;
+    s.totalSeconds = secondsSince(start);
     return s;
 }
 
-static void save(const Options& options, const Scene& scene, Renderer& renderer, const Settings& settings, const Statistics& statistics) {
-    Image image = filmImage(renderer.film.download(), settings.size, renderer.passes());
-    image.attributes = {{"version", VKPM_VERSION},
-                        {"scene", scene.text},
-                        {"settings", settingsJson(settings)},
-                        {"settingsHash", hashText(scene.text + settingsJson(settings))},
-                        {"seed", std::to_string(settings.seed)},
-                        {"passes", std::to_string(renderer.passes())},
-                        {"device", statistics.device}};
-    // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
-    if (options.stats) image.attributes["seconds"] = fmt::format("{:.3f}", statistics.renderSeconds);
-    writeExr(options.output, image);
-    std::filesystem::path png = options.output;
-    writePng(png.replace_extension(".png"), settings.size, renderer.film.develop(settings.exposure));
-    if (options.stats) writeStatistics(*options.stats, statistics);
+int Job::finish() {
+    if (renderer.film.passCount() == 0) return 130; // nothing to save: an older picture stays
+    if (nonfinite())
+        fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
+    save();
+    log.write("end", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}, {"interrupted", interrupted()}});
+    if (options.stats) writeStatistics(*options.stats, statistics());
+    return interrupted() ? 130 : 0;
 }
+
+} // namespace
 
 int render(const Options& options) {
     const auto start = Clock::now();
@@ -84,26 +195,11 @@ int render(const Options& options) {
 
     Gpu gpu(options.device);
     requireSoundDriver(gpu);
-    Renderer renderer(gpu, scene, settings);
-    const auto begin = Clock::now();
-    {
-        Progress progress(settings.passes, options.quiet);
-        while (renderer.passes() < settings.passes && !interrupted()) {
-            renderer.renderPass();
-            progress.update(renderer.passes(), raysOf(renderer));
-        }
-    }
-
-    if (renderer.passes() == 0) return 130; // nothing to save: an older picture stays
-
-    Statistics statistics = statisticsOf(gpu, renderer, settings);
-    statistics.renderSeconds = secondsSince(begin);
-    statistics.setupSeconds = std::chrono::duration<double>(begin - start).count();
-    statistics.totalSeconds = secondsSince(start);
-    if (statistics.nonfinite)
-        fmt::print(stderr, "vkpm: warning: {} samples were not finite and were left out; see nonfinite in --stats\n", statistics.nonfinite);
-    save(options, scene, renderer, settings, statistics);
-    return interrupted() ? 130 : 0;
+    Job job(options, scene, settings, gpu);
+    job.start = start;
+    if (options.resume) job.resume();
+    job.renderPasses();
+    return job.finish();
 }
 
 } // namespace vkpm

@@ -14,7 +14,7 @@ void main() {
     uint i = threadIndex();
     if (i >= args.count) return;
     vec3 beauty = vec3(0.0);
-    for (uint layer = 0u; layer < LAYER_COUNT; layer++) beauty += args.pixels.at[i].mean.layers[layer];
+    for (uint layer = 0u; layer < LAYER_COUNT; layer++) beauty += args.sums.at[i].sum.layers[layer];
     uvec3 c = uvec3(round(255.0 * encodeSrgb(beauty * args.exposure)));
     args.colors.at[i] = c.x | c.y << 8 | c.z << 16 | 0xff000000u;
 }

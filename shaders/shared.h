@@ -196,12 +196,25 @@ struct Sample {
 };
 BUFFER(Sample)
 
-/// The running means over passes of a pixel's samples, and the sum of squared deviations of beauty (Welford 1962).
+/// Sums over a run of passes of a pixel's samples, and the sum of squared deviations of beauty from its mean.
+struct PixelSum {
+    Sample sum;
+    vec3 deviation;
+};
+BUFFER(PixelSum)
+const uint PIXEL_FLOATS = 26u;
+
+/// What a pixel shows: the means over passes in place of their sums.
 struct Pixel {
     Sample mean;
     vec3 deviation;
 };
-BUFFER(Pixel)
+
+/// Passes begin .. end - 1.
+struct PassRange {
+    uint begin;
+    uint end;
+};
 
 // ---- Paths: photons from the lights, rays from the eye ------------------------------------------
 
@@ -465,18 +478,28 @@ struct GatherArgs {
 
 struct FilmArgs {
     PTR(Sample) samples;
-    PTR(Pixel) pixels;
+    PTR(PixelSum) sums; // of a run of m passes
     PTR(Status) status;
     uint firstPixel;
     uint count;
-    uint passes; // that the pixels hold already
+    float perPass; // 1 / m, or 0 if m = 0
+    float weight;  // m / (m + 1)
+};
+
+struct JoinArgs {
+    PTR(PixelSum) sums;  // of m passes; becomes the sums of both
+    PTR(PixelSum) other; // of n passes
+    uint count;
+    float perPass;      // 1 / m, or 0 if m = 0
+    float perOtherPass; // 1 / n
+    float weight;       // m n / (m + n)
 };
 
 struct DevelopArgs {
-    PTR(Pixel) pixels;
+    PTR(PixelSum) sums;
     PTR(uint) colors; // 8 bit sRGB, red in the lowest byte
     uint count;
-    float exposure; // factor
+    float exposure; // factor that makes means of the sums, too
 };
 
 // ---- The driver audit ---------------------------------------------------------------------------

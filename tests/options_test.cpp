@@ -136,6 +136,25 @@ TEST_F(OptionsTest, KnowsTheCommands) {
     EXPECT_EQ(bench.scene, "box.json");
     EXPECT_EQ(bench.device, "1");
     EXPECT_EQ(parse({"bench"}).scene, "");
+    const Options merge = parse({"merge", "all.exr", "b.exr", "--part", "a.exr"});
+    EXPECT_EQ(merge.command, Command::Merge);
+    EXPECT_EQ(merge.output, "all.exr");
+    EXPECT_EQ(merge.parts, (std::vector<fs::path>{"b.exr", "a.exr"}));
+    EXPECT_TRUE(merge.part);
+    EXPECT_THAT(refusal({"merge", "all.exr"}), HasSubstr("vkpm merge OUT.exr PART.exr..."));
+    EXPECT_THAT(refusal({"merge", "all.png", "a.exr"}), HasSubstr(".exr"));
+}
+
+TEST_F(OptionsTest, ReadsWhatEndsSavesAndGoesOn) {
+    const Options options = render({"--time", "1.5", "--pass-range", "4:16", "--resume", "--checkpoint", "60", "--log", "l.jsonl", "--alpha", "1"});
+    EXPECT_EQ(options.seconds, 1.5);
+    EXPECT_EQ(options.passRange->begin, 4u);
+    EXPECT_EQ(options.passRange->end, 16u);
+    EXPECT_TRUE(options.resume);
+    EXPECT_EQ(options.checkpoint, 60.0);
+    EXPECT_EQ(options.log, "l.jsonl");
+    EXPECT_EQ(options.override(Settings{}).alpha, 1.0f);
+    EXPECT_THAT(refusalOfRender({"--passes", "8", "--pass-range", "4:9"}), HasSubstr("passes below the 8"));
 }
 
 TEST_F(OptionsTest, PrintsHelpAndVersion) {
@@ -176,7 +195,12 @@ TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
              {"--show", "all", "estimate, points"},   {"--output", "a.png", ".exr"},
              {"--output", ".exr", ".exr"},            {"--output", "none/a.exr", "folder that exists"},
              {"--stats", "none/s.json", "folder that exists"}, {"--stats", ".", "folder"},
-             {"--stats", "box.exr", "--output"},      {"--device", "--quiet", "a value"},
+             {"--stats", "box.exr", "--output"},      {"--log", "box.exr", "--output"},
+             {"--time", "0", "seconds"},              {"--checkpoint", "-1", "seconds"},
+             {"--alpha", "0", "above 0"},             {"--alpha", "1.5", "at most 1"},
+             {"--pass-range", "16", "FIRST:END"},     {"--pass-range", "4:4", "FIRST below END"},
+             {"--pass-range", "0:2.5", "whole"},      {"--pass-range", ":4", "0:16"},
+             {"--pass-range", "0:3000000000", "at most"},      {"--device", "--quiet", "a value"},
          })
         EXPECT_THAT(refusalOfRender({c.option, c.value}),
                     AllOf(HasSubstr(c.option), HasSubstr(fmt::format("found \"{}\"", c.value)), HasSubstr(c.allowed)));
@@ -193,11 +217,11 @@ TEST_F(OptionsTest, RefusesWrongScenes) {
 TEST_F(OptionsTest, RefusesUnknownWordsAndSuggestsTheNearest) {
     EXPECT_THAT(refusal({"--sceen", "box.json"}), AllOf(HasSubstr("--sceen"), HasSubstr("did you mean --scene?")));
     EXPECT_THAT(refusalOfRender({"--pass=3"}), HasSubstr("did you mean --passes?"));
-    EXPECT_THAT(refusalOfRender({"--time", "3"}), AllOf(HasSubstr("--time: unknown"), Not(HasSubstr("mean"))));
+    EXPECT_THAT(refusalOfRender({"--zoom", "3"}), AllOf(HasSubstr("--zoom: unknown"), Not(HasSubstr("mean"))));
     EXPECT_THAT(refusalOfRender({"-q"}), HasSubstr("-q: unknown"));
     EXPECT_THAT(refusal({"devices", "--scene", "box.json"}), HasSubstr("--scene: unknown"));
     EXPECT_THAT(refusal({"rendr"}), AllOf(HasSubstr("rendr"), HasSubstr("did you mean render?")));
-    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, devices, bench"));
+    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, merge, devices, bench"));
     EXPECT_THAT(refusal({"box.json"}), HasSubstr("--scene box.json"));
     EXPECT_THAT(refusalOfRender({"extra"}), HasSubstr("\"extra\""));
 }

@@ -20,26 +20,33 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(Progress, LineNeverSaysAllWhileWorkIsLeft) {
-    EXPECT_THAT(progressLine(199, 200, 10, 0, 200, true), AllOf(HasSubstr("99 %"), HasSubstr(" ]")));
-    EXPECT_THAT(progressLine(0xfffffffe, 0xffffffff, 10, 0, 200, true), AllOf(HasSubstr("99 %"), HasSubstr(" ]")));
-    EXPECT_THAT(progressLine(200, 200, 10, 0, 200, true),
+    EXPECT_THAT(progressLine(199, {200}, 10, 0, 200, true), AllOf(HasSubstr("99 %"), HasSubstr(" ]")));
+    EXPECT_THAT(progressLine(0xfffffffd, {0xfffffffe}, 10, 0, 200, true), AllOf(HasSubstr("99 %"), HasSubstr(" ]")));
+    EXPECT_THAT(progressLine(200, {200}, 10, 0, 200, true),
                 AllOf(HasSubstr("100 %"), HasSubstr("=]"), Not(HasSubstr("left"))));
 }
 
 TEST(Progress, LineEstimatesFromTheFinishedPasses) {
-    EXPECT_EQ(progressLine(4, 16, 20, 50'000'000, 200, false),
+    EXPECT_EQ(progressLine(4, {16}, 20, 50'000'000, 200, false),
               "pass 4/16  25 %  0:20 elapsed  1:00 left  2.5 Mrays/s");
-    EXPECT_THAT(progressLine(0, 16, 0, 0, 200, true), AllOf(Not(HasSubstr("left")), Not(HasSubstr("rays"))));
-    EXPECT_THAT(progressLine(1, 2, 3723, 0, 200, false), HasSubstr("1:02:03 left"));
+    EXPECT_THAT(progressLine(0, {16}, 0, 0, 200, true), AllOf(Not(HasSubstr("left")), Not(HasSubstr("rays"))));
+    EXPECT_THAT(progressLine(1, {2}, 3723, 0, 200, false), HasSubstr("1:02:03 left"));
     for (const size_t columns : {0u, 1u, 20u, 79u, 120u})
-        EXPECT_LE(progressLine(3, 16, 20, 50'000'000, columns, true).size(), columns);
+        EXPECT_LE(progressLine(3, {16}, 20, 50'000'000, columns, true).size(), columns);
+}
+
+TEST(Progress, LineOfATimedRenderAndOfOneThatGoesOn) {
+    EXPECT_EQ(progressLine(5, {NONE, 20}, 10, 0, 200, false), "pass 5  50 %  0:10 elapsed  0:10 left");
+    EXPECT_THAT(progressLine(5, {NONE, 20}, 25, 0, 200, true), AllOf(HasSubstr("99 %"), HasSubstr(" ]")));
+    EXPECT_EQ(progressLine(4, {8, 1e9, 2}, 10, 0, 200, false), "pass 4/8  50 %  0:10 elapsed  0:20 left");
+    EXPECT_THAT(progressLine(2, {8, 1e9, 2}, 0, 0, 200, false), Not(HasSubstr("left")));
 }
 
 /// What a render of `passes` passes of `seconds` each writes to a file.
 std::string logOf(uint passes, double seconds, bool quiet) {
     std::FILE* file = std::tmpfile();
     {
-        Progress progress(passes, quiet, file);
+        Progress progress({passes}, quiet, file);
         for (uint i = 1; i <= passes; ++i) progress.update(i, i * 1000, i * seconds);
     }
     std::string text(static_cast<size_t>(std::ftell(file)), ' ');
@@ -70,7 +77,7 @@ TEST(Progress, RedrawsOneLineOnATerminalAndEndsIt) {
     const winsize size{.ws_row = 24, .ws_col = 100, .ws_xpixel = 0, .ws_ypixel = 0};
     ::ioctl(master, TIOCSWINSZ, &size);
     {
-        Progress progress(200, false, file);
+        Progress progress({200}, false, file);
         for (uint i = 1; i <= 150; ++i) progress.update(i, i * 1000, i * 0.01);
     }
     // The terminal hands its text on in parts, after a while.

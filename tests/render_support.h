@@ -23,7 +23,7 @@ struct Rendered {
 
 inline Rendered renderPasses(const Scene& scene, Settings settings, uint passes) {
     Renderer renderer(testGpu(), scene, chooseRadii(scene, settings));
-    for (uint pass = 0; pass < passes; pass++) renderer.renderPass();
+    for (uint pass = 0; pass < passes; pass++) renderer.renderPass(pass);
     Rendered result{renderer.film.download()};
     if (renderer.globalMap()) result.global = renderer.globalMap()->ledger;
     if (renderer.causticMap()) result.caustic = renderer.causticMap()->ledger;

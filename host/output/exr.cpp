@@ -96,12 +96,12 @@ uvec2 sizeOf(const Imath::Box2i& window) {
     return {static_cast<uint>(width), static_cast<uint>(height)};
 }
 
-Image imageOf(const Imf::Header& header) {
+Image imageOf(const Imf::Header& header, bool values) {
     Image image{.size = sizeOf(header.dataWindow())};
     for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1)
             throw InputError(fmt::format("channel {} is subsampled; allowed is one value per pixel", i.name()));
-        image.channels.push_back({i.name(), std::vector<float>(size_t(image.size.x) * image.size.y)});
+        image.channels.push_back({i.name(), std::vector<float>(values ? size_t(image.size.x) * image.size.y : 0)});
     }
     for (auto i = header.begin(); i != header.end(); ++i) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
@@ -111,10 +111,11 @@ Image imageOf(const Imf::Header& header) {
     return image;
 }
 
-Image decode(const std::string& name) {
+Image decode(const std::string& name, bool values) {
     Imf::InputFile file(name.c_str());
     const Imath::Box2i window = file.header().dataWindow();
-    Image image = imageOf(file.header());
+    Image image = imageOf(file.header(), values);
+    if (!values) return image;
     Imf::FrameBuffer buffer;
     for (Channel& channel : image.channels)
         buffer.insert(channel.name, slice(channel.values.data(), image.size, window.min));
@@ -149,16 +150,20 @@ void writeExr(const fs::path& path, const Image& image) {
     replaceFile(path, bytes);
 }
 
-Image readExr(const fs::path& path) {
+static Image read(const fs::path& path, bool values) {
     requireExr(path);
     startThreads();
     try {
-        return decode(path.string());
+        return decode(path.string(), values);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
         throw InputError(fmt::format("{}: cannot be read as an EXR image: {}", path.string(), error.what()));
     }
 }
+
+Image readExr(const fs::path& path) { return read(path, true); }
+
+Image readExrHeader(const fs::path& path) { return read(path, false); }
 
 } // namespace vkpm

@@ -13,4 +13,7 @@ void writeExr(const std::filesystem::path& path, const Image& image);
 /// Throws InputError with file and cause if it is missing, damaged or not a flat EXR image.
 Image readExr(const std::filesystem::path& path);
 
+/// The same without the values of its channels.
+Image readExrHeader(const std::filesystem::path& path);
+
 } // namespace vkpm

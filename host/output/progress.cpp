@@ -36,21 +36,25 @@ size_t terminalColumns(std::FILE* file) {
 
 } // namespace
 
-std::string progressLine(uint finished, uint passes, double seconds, std::uint64_t rays, size_t columns, bool bar) {
-    const double left = finished > 0 ? seconds / finished * (passes - finished) : 0;
-    std::string line = fmt::format("pass {}/{}  {} %  {} elapsed", finished, passes,
-                                   std::uint64_t(100) * finished / passes, clockText(seconds));
-    if (finished > 0 && finished < passes) line += fmt::format("  {} left", clockText(left));
+std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar) {
+    const bool done = finished >= goal.passes;
+    const uint rendered = finished - goal.first;
+    const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
+    const double part = std::clamp(std::max(double(finished) / goal.passes, seconds / goal.seconds), 0.0, most);
+    const double left = rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
+    const std::string passes = goal.passes == NONE ? "" : fmt::format("/{}", goal.passes);
+    std::string line = fmt::format("pass {}{}  {} %  {} elapsed", finished, passes, uint(100 * part), clockText(seconds));
+    if (rendered > 0 && !done) line += fmt::format("  {} left", clockText(left));
     if (rays > 0 && seconds > 0) line += "  " + rateText(static_cast<double>(rays) / seconds);
     if (bar && line.size() + BAR_WIDTH + 4 <= columns) {
-        const size_t full = BAR_WIDTH * std::uint64_t(finished) / passes;
+        const size_t full = size_t(BAR_WIDTH * part);
         line = fmt::format("[{:<{}}]  {}", std::string(full, '='), BAR_WIDTH, line);
     }
     return line.substr(0, columns);
 }
 
-Progress::Progress(uint count, bool quiet, std::FILE* out)
-    : passes(std::max(count, 1u)), file(quiet ? nullptr : out), terminal(::isatty(::fileno(out)) == 1) {
+Progress::Progress(const Goal& aim, bool quiet, std::FILE* out)
+    : goal(aim), file(quiet ? nullptr : out), terminal(::isatty(::fileno(out)) == 1), finished(aim.first), shown(aim.first) {
     if (file && terminal) draw(0);
 }
 
@@ -71,7 +75,7 @@ void Progress::update(uint done, std::uint64_t count) {
 }
 
 void Progress::update(uint done, std::uint64_t count, double seconds) {
-    finished = std::min(done, passes);
+    finished = std::min(done, goal.passes);
     rays = count;
     lastSeconds = seconds;
     if (!file || interrupted() || !due(seconds)) return;
@@ -88,16 +92,16 @@ void Progress::update(uint done, std::uint64_t count, double seconds) {
 /// Whether it is time for a report: at the first and last pass, and, off a terminal, if the next update would
 /// come too late.
 bool Progress::due(double seconds) const {
-    if (finished == passes) return shown != finished;
-    if (finished == 0) return terminal && seconds - reported >= REDRAW_SECONDS;
-    const double pass = terminal ? 0 : seconds / finished;
-    return shown == 0 || seconds - reported + pass > interval;
+    if (finished == goal.passes) return shown != finished;
+    if (finished == goal.first) return terminal && seconds - reported >= REDRAW_SECONDS;
+    const double pass = terminal ? 0 : seconds / (finished - goal.first);
+    return shown == goal.first || seconds - reported + pass > interval;
 }
 
 /// Writes over the line, blanks over what remains of a longer one.
 void Progress::draw(double seconds) {
     const size_t columns = terminalColumns(file);
-    const std::string line = progressLine(finished, passes, seconds, rays, columns, true);
+    const std::string line = progressLine(finished, goal, seconds, rays, columns, true);
     fmt::print(file, "\r{:<{}}", line, std::min(drawn, columns));
     std::fflush(file);
     drawn = line.size();
@@ -105,7 +109,7 @@ void Progress::draw(double seconds) {
 }
 
 void Progress::log(double seconds) {
-    fmt::print(file, "{}\n", progressLine(finished, passes, seconds, rays, 200, false));
+    fmt::print(file, "{}\n", progressLine(finished, goal, seconds, rays, 200, false));
     std::fflush(file);
     shown = finished;
 }

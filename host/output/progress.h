@@ -4,18 +4,26 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 namespace vkpm {
 
+/// What a render is to reach, and where it begins: whichever of passes and seconds comes first ends it.
+struct Goal {
+    uint passes;    // NONE if time alone counts
+    double seconds = std::numeric_limits<double>::infinity();
+    uint first = 0; // passes that were there before
+};
+
 /// Passes done, percent, time elapsed and left, and rays per second, in at most `columns` characters; a bar if
 /// there is room for one and `bar` is set. Time left comes from the mean of the finished passes.
-std::string progressLine(uint finished, uint passes, double seconds, std::uint64_t rays, size_t columns, bool bar);
+std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar);
 
 /// Reports to `file` (stderr); ends its line when destroyed, and writes nothing between an interrupt and that.
 class Progress {
 public:
-    Progress(uint passes, bool quiet, std::FILE* file = stderr);
+    Progress(const Goal& goal, bool quiet, std::FILE* file = stderr);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -31,13 +39,13 @@ private:
     void log(double seconds);
     bool due(double seconds) const;
 
-    uint passes;
+    Goal goal;
     std::FILE* file; // null if silent
     bool terminal;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    uint finished = 0;
+    uint finished;
     std::uint64_t rays = 0;
-    uint shown = 0;          // passes finished at the last report
+    uint shown;              // passes finished at the last report
     double lastSeconds = 0;  // of the last update
     double reported = 0;     // time of the last report
     double interval = 0;     // least time between reports

@@ -46,4 +46,11 @@ Settings chooseRadii(const Scene& scene, Settings settings) {
     return settings;
 }
 
+float radiusFactor(uint pass, float alpha) {
+    // Gamma(n + a) / (Gamma(n + 1) Gamma(1 + a)), n = pass + 1; the logarithms of large n cancel to 1e-9 in 64 bits of mantissa.
+    const long double n = pass + 1.0L;
+    const long double a = alpha;
+    return float(std::exp((std::lgamma(n + a) - std::lgamma(n + 1) - std::lgamma(1 + a)) / 2));
+}
+
 } // namespace vkpm

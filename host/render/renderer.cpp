@@ -29,29 +29,32 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set)
     else absent.push_back(settings.causticPhotons ? "caustic map: the integrator does not use it" : "caustic map: no photons asked for");
 }
 
-void Renderer::buildMap(std::optional<MapStages>& stages, uint photons, float radius) {
+void Renderer::buildMap(std::optional<MapStages>& stages, uint pass, uint photons, float radius) {
     // Looking at a map means looking at one map: that of the first pass.
     const bool still = settings.integrator == INTEGRATOR_PHOTON_MAP;
-    if (!stages || (still && passesDone > 0)) return;
-    const PhotonLedger ledger = stages->tracing.trace(passesDone);
+    if (!stages || (still && stages->ledger.emitted > 0)) return;
+    if (still) pass = 0;
+    const PhotonLedger ledger = stages->tracing.trace(pass);
+    radius *= radiusFactor(pass, settings.alpha);
     stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, flux / float(photons));
     stages->ledger += ledger;
 }
 
-void Renderer::renderPass() {
-    buildMap(global, settings.photons, *settings.radius);
-    buildMap(caustic, settings.causticPhotons, *settings.causticRadius);
+void Renderer::renderPass(uint pass) {
+    buildMap(global, pass, settings.photons, *settings.radius);
+    buildMap(caustic, pass, settings.causticPhotons, *settings.causticRadius);
     const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}};
 
     const uint pixels = settings.size.x * settings.size.y;
+    film.begin(pass);
     for (uint first = 0; first < pixels; first += camera.capacity()) {
         const uint count = std::min(camera.capacity(), pixels - first);
-        const RayCounts rays = camera.trace(passesDone, first, count, maps);
-        film.add(camera.samples, first, count, passesDone);
+        const RayCounts rays = camera.trace(pass, first, count, maps);
+        film.add(camera.samples, first, count);
         cameraRays.paths += rays.paths;
         cameraRays.shadow += rays.shadow;
     }
-    passesDone++;
+    film.end();
 }
 
 } // namespace vkpm

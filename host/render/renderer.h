@@ -16,15 +16,15 @@ struct MapStages {
     PhotonMap map{};
 };
 
-/// Renders a scene pass by pass; pass i is a pure function of (scene, settings, i).
+/// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
 class Renderer {
 public:
     /// `settings` with every radius chosen (see radius.h).
     Renderer(Gpu& gpu, const Scene& scene, const Settings& settings);
 
-    void renderPass();
+    /// Renders the pass of an index, the one after the film's last.
+    void renderPass(uint pass);
 
-    uint passes() const { return passesDone; }
     RayCounts rays() const { return cameraRays; }
     const Features& features() const { return sceneHas; }
     /// Stages that this scene does not need, each with the reason.
@@ -33,7 +33,7 @@ public:
     const std::optional<MapStages>& causticMap() const { return caustic; }
 
 private:
-    void buildMap(std::optional<MapStages>& stages, uint photons, float radius);
+    void buildMap(std::optional<MapStages>& stages, uint pass, uint photons, float radius);
 
     Gpu& gpu;
     Settings settings;
@@ -44,7 +44,6 @@ private:
     std::optional<MapStages> global;
     std::optional<MapStages> caustic;
     CameraPaths camera;
-    uint passesDone = 0;
     RayCounts cameraRays;
 
 public:

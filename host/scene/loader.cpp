@@ -54,6 +54,7 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto radius = reader.find("radius")) settings.radius = radius->number(positive);
     if (const auto radius = reader.find("causticRadius")) settings.causticRadius = radius->number(positive);
     if (const auto nearest = reader.find("nearest")) settings.nearest = nearest->integer(0, 1'000'000);
+    if (const auto alpha = reader.find("alpha")) settings.alpha = alpha->number({0, 1, true});
     if (const auto kernel = reader.find("kernel"))
         settings.kernel = static_cast<uint>(kernel->choice({"constant", "cone", "gauss", "epanechnikov"}));
     if (const auto fresnel = reader.find("fresnel")) settings.schlick = fresnel->choice({"exact", "schlick"}) == 1;

@@ -13,6 +13,7 @@ struct Settings {
     std::optional<float> radius;         // of the global gather, world units; by the size of the scene if absent
     std::optional<float> causticRadius;  // likewise of the caustic gather
     uint nearest = 0;                    // gather the k nearest photons within the radius; 0: all within it
+    float alpha = 2.0f / 3;              // how fast radii shrink from pass to pass; 1: not at all
     uint kernel = KERNEL_CONSTANT;       // KERNEL_...
     bool schlick = false;                // Schlick's Fresnel in place of the exact one
     uint seed = 0;                       //

@@ -13,6 +13,7 @@ std::string settingsJson(const Settings& s) {
                                 {"photons", s.photons},
                                 {"causticPhotons", s.causticPhotons},
                                 {"nearest", s.nearest},
+                                {"alpha", s.alpha},
                                 {"kernel", kernels[s.kernel]},
                                 {"fresnel", s.schlick ? "schlick" : "exact"},
                                 {"seed", s.seed}};

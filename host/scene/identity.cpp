@@ -1,0 +1,108 @@
+/// Hashes and differences of scenes and settings.
+#include "scene/identity.h"
+#include "scene/settings_json.h"
+#include <cstring>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace vkpm {
+namespace {
+
+using nlohmann::json;
+
+/// FNV-1a (Fowler, Noll & Vo 1991) over words in place of bytes.
+class Hash {
+public:
+    void add(std::uint32_t word) { value = (value ^ word) * 0x100000001b3u; }
+
+    template <class T> void add(const std::vector<T>& items) {
+        static_assert(sizeof(T) % 4 == 0);
+        add(std::uint32_t(items.size()));
+        for (const T& item : items) addWords(item);
+    }
+
+    template <class T> void addWords(const T& item) {
+        std::uint32_t words[sizeof(T) / 4];
+        std::memcpy(words, &item, sizeof(T));
+        for (const std::uint32_t word : words) add(word);
+    }
+
+    std::string text() const { return fmt::format("{:016x}", value); }
+
+private:
+    std::uint64_t value = 0xcbf29ce484222325u;
+};
+
+std::string sceneHash(const Scene& scene) {
+    Hash hash;
+    hash.add(scene.triangleCount);
+    hash.add(scene.primitives);
+    hash.add(scene.normals);
+    hash.add(scene.materials);
+    hash.add(scene.lights);
+    hash.add(scene.targets);
+    hash.addWords(scene.view);
+    return hash.text();
+}
+
+/// What of a scene file makes its picture, settings aside: these are compared as they came out.
+json essence(const std::string& text) {
+    json scene = json::parse(text, nullptr, false);
+    if (scene.is_object())
+        for (const char* key : {"$schema", "about", "settings", "film"}) scene.erase(key);
+    return scene;
+}
+
+std::vector<std::string> sceneDifferences(const std::string& here, const std::string& there) {
+    std::vector<std::string> lines;
+    for (const json& change : json::diff(essence(here), essence(there))) {
+        if (lines.size() == 5) {
+            lines.push_back("scene: ...");
+            break;
+        }
+        lines.push_back("scene: " + change["path"].get<std::string>());
+    }
+    if (lines.empty()) lines.push_back("scene: what its mesh files hold");
+    return lines;
+}
+
+std::vector<std::string> settingsDifferences(const std::string& here, const std::string& there) {
+    const json a = json::parse(here, nullptr, false);
+    const json b = json::parse(there, nullptr, false);
+    if (!a.is_object() || !b.is_object()) return {"settings: not readable"};
+    std::vector<std::string> lines;
+    const auto text = [](const json& object, const std::string& key) { return object.contains(key) ? object[key].dump() : "none given"; };
+    json all = a;
+    all.update(b);
+    for (const auto& [key, value] : all.items())
+        if (text(a, key) != text(b, key)) lines.push_back(fmt::format("{}: {} here, {} there", key, text(a, key), text(b, key)));
+    return lines;
+}
+
+} // namespace
+
+std::map<std::string, std::string> identityOf(const Scene& scene, const Settings& settings) {
+    std::map<std::string, std::string> identity{{"version", VKPM_VERSION},
+                                                {"scene", scene.text},
+                                                {"sceneHash", sceneHash(scene)},
+                                                {"settings", settingsJson(settings)},
+                                                {"seed", std::to_string(settings.seed)}};
+    identity["settingsHash"] = hashText(identity["version"] + identity["sceneHash"] + identity["settings"]);
+    return identity;
+}
+
+std::vector<std::string> differences(const std::map<std::string, std::string>& here, const std::map<std::string, std::string>& there) {
+    const auto value = [](const auto& map, const char* key) { return map.contains(key) ? map.at(key) : std::string(); };
+    if (value(here, "settingsHash") == value(there, "settingsHash")) return {};
+    std::vector<std::string> lines;
+    if (value(here, "version") != value(there, "version"))
+        lines.push_back(fmt::format("version: {} here, {} there", value(here, "version"), value(there, "version")));
+    if (value(here, "sceneHash") != value(there, "sceneHash"))
+        for (const std::string& line : sceneDifferences(value(here, "scene"), value(there, "scene"))) lines.push_back(line);
+    for (const std::string& line : settingsDifferences(value(here, "settings"), value(there, "settings"))) lines.push_back(line);
+    if (lines.empty()) lines.push_back("settingsHash: damaged");
+    return lines;
+}
+
+} // namespace vkpm
