@@ -12,10 +12,10 @@
 ARGS(EmitArgs)
 
 void main() {
-    uint photon = threadIndex();
-    if (photon >= args.count) return;
+    uint slot = threadIndex();
+    if (slot >= args.count) return;
     DeviceScene scene = args.scene.at[0];
-    Sampler s = photonSampler(photon, args.pass, args.seed, args.caustic);
+    Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
     vec2 choice = sample2(s, 0u);
@@ -32,8 +32,9 @@ void main() {
 
     vec3 color = light.radiance / luminance(light.radiance) * weight;
     vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
-    args.paths.at[photon] = Path(origin, direction, color, 0.0, NONE, 0u);
-    args.list.at[photon] = photon;
-    args.flags.at[photon] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
+    args.paths.at[slot] = Path(origin, direction, color, 0.0, NONE, 0u);
+    args.list.at[slot] = slot;
+    args.counts.at[slot] = 0u;
+    args.flags.at[slot] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
     if (!(weight > 0.0)) atomicAdd(args.status.at[0].escaped, 1u);
 }

@@ -28,12 +28,12 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
     vec2 u = sample2(s, 4u * args.bounce + 5u);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, PATH_SPECULAR);
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, path.flags | PATH_SPECULAR);
     return survives(path, event.weight, specularSurvival(event.weight, args.bounce), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
 }
 
 // The photon as the map keeps it. Its flux makes up for a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
-Photon arrive(inout Path path, Surface surface, vec3 normal) {
+Photon photonAt(inout Path path, Surface surface, vec3 normal) {
     if (hasSmoothNormals != 0u) {
         vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
         path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
@@ -44,35 +44,47 @@ Photon arrive(inout Path path, Surface surface, vec3 normal) {
 uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
     if (!survives(path, material.color, maxComponent(material.color), sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, 0u);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, path.flags & ~PATH_SPECULAR);
     return FATE_GOES_ON;
 }
 
-// Moves the photon on; keeps it in `pending` and sets `deposits` if it belongs into the map.
-uint step(uint slot, out bool deposits) {
+// Moves the photon on; returns its fate, and whether it belongs into the map, as `arrival`.
+uint step(uint slot, out bool arrives, out Arrival arrival) {
     DeviceScene scene = args.scene.at[0];
     Path path = args.paths.at[slot];
     Hit hit = args.hits.at[slot];
-    deposits = false;
+    arrives = false;
     if (hit.primitive == NONE) return FATE_ESCAPED;
 
-    Sampler s = photonSampler(slot, args.pass, args.seed, args.caustic);
+    Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
     Material material = scene.materials.at[surface.material];
     uint fate;
     if (!isDiffuse(material)) {
         fate = scatterAtSpecular(path, material, surface, s);
-    } else if (args.caustic != 0u && path.flags == 0u) {
+    } else if (args.caustic != 0u && (path.flags & PATH_SPECULAR) == 0u) {
         return FATE_ESCAPED; // aimed at a specular shape, but not one that it hit
     } else {
         vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
-        Photon photon = arrive(path, surface, normal);
-        deposits = maxComponent(photon.color) > 0.0;
-        if (deposits) args.pending.at[slot] = photon;
+        Photon photon = photonAt(path, surface, normal);
+        arrives = maxComponent(photon.color) > 0.0;
+        arrival = Arrival(photon, slot, path.flags >> PATH_DIFFUSE_SHIFT);
+        if (arrives) path.flags += 1u << PATH_DIFFUSE_SHIFT;
         fate = args.caustic != 0u ? FATE_ABSORBED : scatterAtDiffuse(path, material, surface, normal, s);
     }
     if (fate == FATE_GOES_ON) args.paths.at[slot] = path;
     return fate;
+}
+
+// Keeps the arrivals of a subgroup in any order; (slot, index) says where they belong.
+void deposit(bool arrives, Arrival arrival) {
+    uint before = subgroupExclusiveAdd(uint(arrives));
+    uint count = subgroupAdd(uint(arrives));
+    uint first = subgroupElect() ? atomicAdd(args.status.at[0].arrivals, count) : 0u;
+    uint place = subgroupAdd(first) + before;
+    if (!arrives) return;
+    args.counts.at[arrival.slot] = arrival.index + 1u;
+    if (place < args.capacity) args.arrivals.at[place] = arrival;
 }
 
 void main() {
@@ -80,9 +92,11 @@ void main() {
     uint place = threadIndex();
     if (place >= queue.count) return;
 
-    bool deposits;
-    uint fate = step(args.list.at[queue.first + place], deposits);
-    args.flags.at[place] = uint(fate == FATE_GOES_ON) << QUEUE_CONTINUE | uint(deposits) << QUEUE_DEPOSIT;
+    bool arrives;
+    Arrival arrival;
+    uint fate = step(args.list.at[queue.first + place], arrives, arrival);
+    deposit(arrives, arrival);
+    args.flags.at[place] = uint(fate == FATE_GOES_ON) << QUEUE_CONTINUE;
 
     // The ledger; sums of integers do not depend on their order.
     uint escaped = subgroupAdd(uint(fate == FATE_ESCAPED));

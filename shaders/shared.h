@@ -262,21 +262,27 @@ struct Photon {
 };
 BUFFER(Photon)
 
-/// What the host reads after a step: counters, and what ran out.
+/// A photon of a wave in the order in which it happened to arrive, and its place: the path's how-manieth.
+struct Arrival {
+    Photon photon;
+    uint slot;
+    uint index;
+};
+BUFFER(Arrival)
+
+/// What the host reads after a step: counters.
 struct Status {
-    uint overflow;  // OVERFLOW_...
+    uint arrivals;  // photons for the map, whether there was room or not
     uint absorbed;  // photons
     uint escaped;   // photons that left the scene or missed what they were aimed at
     uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
 };
-const uint OVERFLOW_PHOTONS = 1u;
 const uint NONFINITE_PHOTON = LAYER_COUNT;
 BUFFER(Status)
 
 // Bits of a path's flags after a step; bit k puts the path into queue k.
 const uint QUEUE_CONTINUE = 0u;
-const uint QUEUE_DEPOSIT = 1u; // photons
-const uint PHOTON_QUEUES = 2u;
+const uint PHOTON_QUEUES = 1u;
 const uint QUEUE_SHADOW = 1u; // eye
 const uint QUEUE_CAUSTIC = 2u;
 const uint QUEUE_GLOBAL = 3u;
@@ -287,7 +293,9 @@ struct EmitArgs {
     PTR(Path) paths;
     PTR(uint) list;
     PTR(uint) flags;
+    PTR(uint) counts; // of arrivals, by path
     PTR(Status) status;
+    uint firstPhoton;
     uint count;
     uint pass;
     uint seed;
@@ -306,11 +314,14 @@ struct ScatterArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(Hit) hits;
-    PTR(Photon) pending; // by path
+    PTR(Arrival) arrivals;
+    PTR(uint) counts; // of arrivals, by path
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags; // by place in the list
     PTR(Status) status;
+    uint capacity; // of arrivals
+    uint firstPhoton;
     uint pass;
     uint seed;
     uint bounce;
@@ -341,13 +352,13 @@ struct CompactArgs {
     uint kinds;
 };
 
-struct DepositArgs {
-    PTR(Queue) queue;
-    PTR(uint) list;
-    PTR(Photon) pending;
+struct PlaceArgs {
+    PTR(Arrival) arrivals;
+    PTR(uint) offsets; // of the wave's paths
     PTR(Photon) photons;
     PTR(Status) status;
-    uint capacity;
+    uint first; // place of the wave's first photon
+    uint count; // of arrivals
 };
 
 // ---- The photon grid ----------------------------------------------------------------------------

@@ -5,15 +5,14 @@
 
 namespace vkpm {
 
-const uint maxPathsAtOnce = 1u << 16; // small enough that the state of the paths stays in a CPU's cache
 const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
 
-CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, bool causticMap)
-    : gpu(device), scene(uploaded), settings(set), hasCausticMap(causticMap), size(std::min(set.size.x * set.size.y, maxPathsAtOnce)),
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, bool causticMap, uint wave)
+    : gpu(device), scene(uploaded), settings(set), hasCausticMap(causticMap), size(std::min(set.size.x * set.size.y, wave)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       shadowRays(gpu, "camera shadow rays", size), queries(gpu, "camera queries", size), eye(gpu, "eye", features),
       traceKernel(gpu, "trace", features), shade(gpu, "shade", features), shadow(gpu, "shadow", features),

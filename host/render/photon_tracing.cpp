@@ -1,5 +1,6 @@
-/// The photon loop: emit, then trace, scatter and deposit until no photon is under way.
+/// The photon loop: emit, then trace and scatter until no photon of the wave is under way, then place those that arrived.
 #include "render/photon_tracing.h"
+#include <algorithm>
 
 namespace vkpm {
 
@@ -17,55 +18,85 @@ PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     return *this;
 }
 
-PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, MapKind mapKind, uint photonCount, uint sequence)
-    : gpu(device), scene(uploaded), kind(mapKind), count(photonCount), seed(sequence),
-      name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"), compaction(gpu, name, count, PHOTON_QUEUES),
-      paths(gpu, name + " paths", count), hits(gpu, name + " hits", count), pending(gpu, name + " arrivals", count),
-      status(gpu, name + " status", 1), emit(gpu, "emit", features), traceKernel(gpu, "trace", features),
-      scatter(gpu, "scatter", features), deposit(gpu, "deposit", features) {
-    photons = Buffer<Photon>(gpu, name + "s", kind == MapKind::caustic ? count : 3ull * count);
+PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, MapKind mapKind, uint photonCount, uint sequence, uint waveSize)
+    : gpu(device), scene(uploaded), kind(mapKind), count(photonCount), seed(sequence), wave(std::min(waveSize, count)),
+      name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"), compaction(gpu, name, wave, PHOTON_QUEUES),
+      paths(gpu, name + " paths", wave), hits(gpu, name + " hits", wave), counts(gpu, name + " counts", wave + 1ull),
+      whole(gpu, name + " wave", 1), status(gpu, name + " status", 1), emit(gpu, "emit", features), traceKernel(gpu, "trace", features),
+      scatter(gpu, "scatter", features), scan(gpu, "scan"), placeKernel(gpu, "place") {
+    const uint perPhoton = kind == MapKind::caustic ? 1 : 3; // to begin with
+    arrivals = Buffer<Arrival>(gpu, name + " arrivals", std::uint64_t(perPhoton) * wave);
+    photons = Buffer<Photon>(gpu, name + "s", std::uint64_t(perPhoton) * count);
 }
 
-void PhotonTracing::bounce(Recording& recording, uint pass, uint index) {
+void PhotonTracing::bounce(Recording& recording, uint pass, uint first, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(scatter, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, pending, queues, compaction.list, compaction.flags, status, pass, seed, index, uint(kind)});
+                  {scene.address, paths, hits, arrivals, counts, queues, compaction.list, compaction.flags, status,
+                   static_cast<uint>(arrivals.size()), first, pass, seed, index, uint(kind)});
     compaction.compact(recording);
-    const Ptr<Queue> arrivals{queues.address + QUEUE_DEPOSIT * sizeof(Queue)};
-    recording.run(deposit, queues, QUEUE_DEPOSIT, {arrivals, compaction.list, pending, photons, status, static_cast<uint>(photons.size())});
 }
 
-PhotonLedger PhotonTracing::attempt(uint pass) {
+PhotonLedger PhotonTracing::traceWave(uint pass, uint first, uint size) {
     Recording recording(gpu);
     recording.clear(status);
-    compaction.start(count);
-    recording.run(emit, count, {scene.address, paths, compaction.list, compaction.flags, status, count, pass, seed, uint(kind)});
+    compaction.start(size);
+    recording.run(emit, size, {scene.address, paths, compaction.list, compaction.flags, counts, status, first, size, pass, seed, uint(kind)});
     compaction.compact(recording);
 
     // Batches of bounces, until the device says that no photon is left.
-    std::vector<Queue> queues;
+    Queue queue{};
     for (uint index = 0; index < maxBounces;) {
-        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, index);
+        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, first, index);
         recording.submit();
-        queues = compaction.queues.download();
-        if (queues[QUEUE_CONTINUE].count == 0) break;
+        queue = compaction.queues.read1(QUEUE_CONTINUE);
+        if (queue.count == 0) break;
     }
 
     const Status result = status.read1();
-    const std::uint64_t stored = std::uint64_t(queues[QUEUE_DEPOSIT].base) + queues[QUEUE_DEPOSIT].count;
-    return {.emitted = count,
-            .stored = stored,
+    return {.emitted = size,
+            .stored = result.arrivals,
             .absorbed = result.absorbed,
             .escaped = result.escaped,
-            .lost = queues[QUEUE_CONTINUE].count,
-            .rays = std::uint64_t(queues[QUEUE_CONTINUE].base) - count,
-            .nonfinite = result.nonfinite[NONFINITE_PHOTON]};
+            .lost = queue.count,
+            .rays = std::uint64_t(queue.base) - size};
+}
+
+/// Puts the arrivals of a wave behind the photons of the waves before it, and counts those that are not finite.
+void PhotonTracing::place(std::uint64_t first, uint arrived, uint size) {
+    const Queue all{.count = size};
+    whole.upload(std::span(&all, 1));
+    Recording recording(gpu);
+    recording.run(scan, GROUP, {counts, whole, 1, 1});
+    recording.run(placeKernel, arrived, {arrivals, counts, photons, status, static_cast<uint>(first), arrived});
+    recording.submit();
+}
+
+PhotonLedger PhotonTracing::attemptWave(uint pass, uint first, uint size, std::uint64_t stored) {
+    PhotonLedger ledger = traceWave(pass, first, size);
+    // A pass is a pure function of its index: with room for all photons it repeats exactly.
+    if (ledger.stored > arrivals.size()) {
+        arrivals = {};
+        arrivals = Buffer<Arrival>(gpu, name + " arrivals", ledger.stored + ledger.stored / 8);
+        ledger = traceWave(pass, first, size);
+    }
+    if (stored + ledger.stored <= photons.size()) place(stored, static_cast<uint>(ledger.stored), size);
+    ledger.nonfinite = status.read1().nonfinite[NONFINITE_PHOTON];
+    return ledger;
+}
+
+PhotonLedger PhotonTracing::attempt(uint pass) {
+    PhotonLedger ledger;
+    for (uint first = 0; first < count; first += wave) {
+        const uint size = std::min(wave, count - first);
+        ledger += attemptWave(pass, first, size, ledger.stored);
+    }
+    return ledger;
 }
 
 PhotonLedger PhotonTracing::trace(uint pass) {
     PhotonLedger ledger = attempt(pass);
-    // A pass is a pure function of its index: with room for all photons it repeats exactly.
     if (ledger.stored > photons.size()) {
         photons = {};
         photons = Buffer<Photon>(gpu, name + "s", ledger.stored + ledger.stored / 8);

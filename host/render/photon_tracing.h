@@ -21,10 +21,11 @@ struct PhotonLedger {
 
 enum class MapKind : uint { global = 0, caustic = 1 };
 
-/// Emits `count` photons per pass and keeps where they arrive, in an order fixed by their indices.
+/// Emits `count` photons per pass, `wave` of them at a time, and keeps where they arrive in the order of their indices, those
+/// of one photon in the order of its bounces; the size of waves changes nothing.
 class PhotonTracing {
 public:
-    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed);
+    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed, uint wave);
 
     /// Fills `photons` with ledger.stored photons of a pass.
     PhotonLedger trace(uint pass);
@@ -33,23 +34,30 @@ public:
 
 private:
     PhotonLedger attempt(uint pass);
-    void bounce(Recording& recording, uint pass, uint bounce);
+    PhotonLedger attemptWave(uint pass, uint first, uint size, std::uint64_t stored);
+    PhotonLedger traceWave(uint pass, uint first, uint size);
+    void place(std::uint64_t first, uint arrived, uint size);
+    void bounce(Recording& recording, uint pass, uint first, uint bounce);
 
     Gpu& gpu;
     const UploadedScene& scene;
     MapKind kind;
     uint count;
     uint seed;
+    uint wave;
     std::string name;
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
-    Buffer<Photon> pending;
+    Buffer<Arrival> arrivals;
+    Buffer<uint> counts; // of a path's arrivals, then their prefix sums
+    Buffer<Queue> whole; // all paths of the wave
     Buffer<Status> status;
     Kernel<EmitArgs> emit;
     Kernel<TraceArgs> traceKernel;
     Kernel<ScatterArgs> scatter;
-    Kernel<DepositArgs> deposit;
+    Kernel<ScanArgs> scan;
+    Kernel<PlaceArgs> placeKernel;
 };
 
 } // namespace vkpm

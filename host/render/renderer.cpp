@@ -14,13 +14,13 @@ static bool needsCaustic(const Settings& settings, const Features& has) {
     return wanted && (has.hasMirror || has.hasGlass);
 }
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set)
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
     : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings.size),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      camera(gpu, scene, sceneHas, settings, needsCaustic(settings, sceneHas)), film(gpu, settings.size) {
+      camera(gpu, scene, sceneHas, settings, needsCaustic(settings, sceneHas), waves.camera), film(gpu, settings.size) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons) {
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
-        stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed), PhotonGrid(gpu, name)});
+        stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name)});
     };
     if (needsGlobal(settings) && settings.photons > 0) construct(global, MapKind::global, settings.photons);
     else absent.push_back(settings.photons ? "global map: the integrator does not use it" : "global map: no photons asked for");

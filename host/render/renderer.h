@@ -16,11 +16,17 @@ struct MapStages {
     PhotonMap map{};
 };
 
+/// How many paths are under way at a time; the picture does not depend on it.
+struct WaveSizes {
+    uint photons = 1u << 16;
+    uint camera = 1u << 16; // small enough that the state of the paths stays in a CPU's cache
+};
+
 /// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
 class Renderer {
 public:
     /// `settings` with every radius chosen (see radius.h).
-    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings);
+    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, WaveSizes waves = {});
 
     /// Renders the pass of an index, the one after the film's last.
     void renderPass(uint pass);
