@@ -188,7 +188,7 @@ int render(const Options& options) {
     const auto start = Clock::now();
     const Scene scene = loadScene(options.scene);
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "vkpm: warning: {}\n", warning);
-    const Settings settings = chooseRadii(scene, options.override(scene.settings));
+    const Settings settings = options.override(scene.settings);
 
     requireWritable(options.output);
     if (options.stats) requireWritable(*options.stats);

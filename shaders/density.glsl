@@ -23,9 +23,9 @@ float photonDistance2(Photon photon, Query query, float radius) {
 // Sum of the photons' colours under the kernel, per area of the disc.
 vec3 estimateWithin(PhotonMap map, Query query, float radius) {
     vec3 sum = vec3(0.0);
-    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    Cells cells = cellsAround(map, query.position, radius);
     for (uint corner = 0u; corner < 8u; corner++) {
-        uvec2 range = cellRange(map, first, corner);
+        uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             Photon photon = map.photons.at[i];
             float distance2 = photonDistance2(photon, query, radius);
@@ -40,9 +40,9 @@ const uint BINS = 16u;
 uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[BINS]) {
     uint below = 0u;
     for (uint b = 0u; b < BINS; b++) bins[b] = 0u;
-    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    Cells cells = cellsAround(map, query.position, map.radius);
     for (uint corner = 0u; corner < 8u; corner++) {
-        uvec2 range = cellRange(map, first, corner);
+        uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
             if (distance2 < low) below++;
@@ -55,9 +55,9 @@ uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[
 // The greatest squared distance below `high` of a photon that counts, or 0.
 float farthestBelow(PhotonMap map, Query query, float high) {
     float farthest = 0.0;
-    ivec3 first = firstCell(query.position, map.cellsPerUnit);
+    Cells cells = cellsAround(map, query.position, map.radius);
     for (uint corner = 0u; corner < 8u; corner++) {
-        uvec2 range = cellRange(map, first, corner);
+        uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
             if (distance2 < high) farthest = max(farthest, distance2);

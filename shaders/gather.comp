@@ -5,6 +5,7 @@
 #include "random.glsl"
 #include "frame.glsl"
 #include "grid.glsl"
+#include "radius_field.glsl"
 #include "density.glsl"
 
 ARGS(GatherArgs)
@@ -14,7 +15,7 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
-    float radius = hasNearest != 0u ? nearestRadius(args.map, query, args.nearest) : args.map.radius;
+    float radius = hasNearest != 0u ? nearestRadius(args.map, query, args.nearest) * args.map.shrink : radiusAt(args.map, query.position);
     vec3 irradiance = estimateWithin(args.map, query, radius) * args.map.photonFlux;
     args.samples.at[slot].layers[query.layer] += query.weight * irradiance;
 }

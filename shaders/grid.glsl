@@ -1,23 +1,54 @@
-// The sorted spatial hash grid: keys of cells. A cell is a bit more than two gather radii wide, so that the eight
-// cells around a point cover its disc; in a block of 2 x 2 x 2 cells all keys differ, so none is read twice.
+// The sorted spatial hash grid. Its widest cells are a bit more than two of the map's radii wide; each is split into eight,
+// `levels` times over. A block is 2 x 2 x 2 of the widest cells: a key is the hash of the block, followed by the places of the
+// nested cells, an octant of three bits a level, so that the keys of any cell at any level are neighbours.
+//
+// A disc is looked up at the level whose cells are just wide enough for the eight around its centre to cover it; these
+// differ in their last octant, so that none is read twice.
 
-ivec3 cellOf(vec3 position, float cellsPerUnit) {
-    return ivec3(clamp(floor(position * cellsPerUnit), -1.0e9, 1.0e9));
-}
+const float FARTHEST_CELL = 5.0e7; // beyond, all cells are one
 
-uint cellKey(ivec3 cell, uint mask) {
-    uvec3 block = uvec3(cell >> 1);
+uint octant(ivec3 cell) {
     uvec3 parity = uvec3(cell & 1);
-    uint h = hash(block.x ^ hash(block.y ^ hash(block.z)));
-    return (h << 3 | parity.x << 2 | parity.y << 1 | parity.z) & mask;
+    return parity.x << 2 | parity.y << 1 | parity.z;
 }
 
-// The cell that, with its seven greater neighbours, covers the disc about a point.
-ivec3 firstCell(vec3 position, float cellsPerUnit) {
-    return ivec3(clamp(floor(position * cellsPerUnit - 0.5), -1.0e9, 1.0e9));
+// The cell of a point at a level.
+ivec3 cellOf(vec3 position, float cellsPerUnit, uint level) {
+    return ivec3(floor(clamp(position * cellsPerUnit, -FARTHEST_CELL, FARTHEST_CELL) * float(1u << level)));
 }
 
-uvec2 cellRange(PhotonMap map, ivec3 first, uint corner) {
-    uint key = cellKey(first + ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u), map.cellMask);
-    return uvec2(map.cells.at[key], map.cells.at[key + 1u]);
+// The key of a cell at a level, without the octants of the levels below.
+uint cellKey(ivec3 cell, uint level) {
+    uvec3 block = uvec3(cell >> (level + 1u));
+    uint key = hash(block.x ^ hash(block.y ^ hash(block.z)));
+    for (uint l = 0u; l <= level; l++) key = key << 3 | octant(cell >> (level - l));
+    return key;
+}
+
+// Cells that cover a disc: with its seven greater neighbours, `first` does.
+struct Cells {
+    ivec3 first;
+    uint level;
+    vec3 offset;  // of the disc's centre from the corner where the eight meet, in cells
+    float reach2; // square of the radius in cells, with room for rounding
+};
+
+Cells cellsAround(PhotonMap map, vec3 position, float radius) {
+    uint level = 0u;
+    for (float wide = 0.5 * map.radius; level < map.levels && radius <= wide; wide *= 0.5) level++;
+    vec3 place = clamp(position * map.cellsPerUnit, -FARTHEST_CELL, FARTHEST_CELL) * float(1u << level);
+    vec3 first = floor(place - 0.5);
+    float reach = radius * map.cellsPerUnit * float(1u << level) + 0.02;
+    return Cells(ivec3(first), level, place - first - 1.0, reach * reach);
+}
+
+// The photons of one of the eight cells, as places in the map; none if the disc does not reach it.
+uvec2 cellRange(PhotonMap map, Cells cells, uint corner) {
+    ivec3 side = ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u);
+    vec3 away = max(cells.offset * vec3(1 - 2 * side), 0.0);
+    if (dot(away, away) > cells.reach2) return uvec2(0u);
+    uint below = 3u * (map.levels - cells.level);
+    uint key = cellKey(cells.first + side, cells.level);
+    uint first = key << below & map.cellMask;
+    return uvec2(map.cells.at[first], map.cells.at[first + (1u << below)]);
 }

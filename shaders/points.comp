@@ -16,9 +16,9 @@ void main() {
     Query query = args.queries.at[slot];
     float radius = min(1.5 * query.footprint, args.map.radius);
     vec3 sum = vec3(0.0);
-    ivec3 first = firstCell(query.position, args.map.cellsPerUnit);
+    Cells cells = cellsAround(args.map, query.position, radius);
     for (uint corner = 0u; corner < 8u; corner++) {
-        uvec2 range = cellRange(args.map, first, corner);
+        uvec2 range = cellRange(args.map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             Photon photon = args.map.photons.at[i];
             if (photonDistance2(photon, query, radius) < INFINITY) sum += photon.color;

@@ -363,14 +363,32 @@ struct PlaceArgs {
 
 // ---- The photon grid ----------------------------------------------------------------------------
 
-/// Photons in the order of their cells' keys, and where each key starts.
+/// Photons in the order of their cells' keys, where each key starts, and how far to gather.
 struct PhotonMap {
     PTR(Photon) photons;
-    PTR(uint) cells; // cellMask + 2 entries
-    float cellsPerUnit;
+    PTR(uint) cells;    // cellMask + 2 entries
+    PTR(float) field;   // binary logarithms of radii in units of `radius`, or 1 where unknown
+    float cellsPerUnit; // of the widest cells
     uint cellMask;
-    float radius;
+    uint levels;  // how often a cell is split into eight
+    float radius; // the greatest, world units
+    float shrink; // gather within this part of the distance of the k-th nearest
     float photonFlux; // W per photon emitted
+    float fieldPerUnit;
+    uint fieldMask; // 0 if the radius is the same everywhere
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(PhotonMap) == 3 * 8 + 8 * 4, "no padding, as GLSL has none");
+#endif
+const uint MOST_LEVELS = 4u;
+const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
+
+struct PilotArgs {
+    PhotonMap map;
+    PTR(uint) sums; // by cell of the field: negative logarithms, photons
+    uint count;
+    float perDisc; // photons wanted
 };
 
 struct KeysArgs {
@@ -379,6 +397,7 @@ struct KeysArgs {
     PTR(uint) values;
     uint count;
     float cellsPerUnit;
+    uint levels;
     uint cellMask;
 };
 

@@ -22,7 +22,7 @@ struct Rendered {
 };
 
 inline Rendered renderPasses(const Scene& scene, Settings settings, uint passes) {
-    Renderer renderer(testGpu(), scene, chooseRadii(scene, settings));
+    Renderer renderer(testGpu(), scene, settings);
     for (uint pass = 0; pass < passes; pass++) renderer.renderPass(pass);
     Rendered result{renderer.film.download()};
     if (renderer.globalMap()) result.global = renderer.globalMap()->ledger;

@@ -8,9 +8,6 @@ namespace vkpm {
 const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
-// A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
-const float nearRadii = 3;
-
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, bool causticMap, uint wave)
     : gpu(device), scene(uploaded), settings(set), hasCausticMap(causticMap), size(std::min(set.size.x * set.size.y, wave)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
@@ -27,7 +24,7 @@ void CameraPaths::bounce(Recording& recording, uint pass, uint first, uint index
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
                   {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, first, pass,
-                   settings.seed, index, hasCausticMap, nearRadii * maps.global.radius, pixelAngle});
+                   settings.seed, index, hasCausticMap, maps.nearDistance, pixelAngle});
     compaction.compact(recording);
 
     const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };

@@ -9,6 +9,7 @@ namespace vkpm {
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};
+    float nearDistance = 0; // a gather ray shorter than this goes on, world units
 };
 
 struct RayCounts {

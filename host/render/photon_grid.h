@@ -10,8 +10,9 @@ public:
     PhotonGrid(Gpu& gpu, std::string name);
 
     /// Sorts the first `count` of `photons` into cells for gathers within `radius` (world units).
-    /// `photonFlux` is the flux per emitted photon, W. The result is valid until the next build.
-    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux);
+    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. The result has no
+    /// radius field, and is valid until the next build.
+    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0);
 
 private:
     Gpu& gpu;

@@ -1,18 +1,10 @@
-/// First radii from areas and photon counts.
+/// Radii by the size of the scene and by the pass.
 #include "render/radius.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace vkpm {
-
-// Photons emitted per area of a disc. Photons of the global map are only seen through a gather ray, so noise of a few
-// photons each averages out; caustics are looked at directly.
-const double globalPhotonsPerDisc = 1.5;
-const double causticPhotonsPerDisc = 20;
-
-// The search radius for the k nearest holds more than k almost everywhere.
-const double nearestMargin = 8;
 
 static double surfaceArea(const Scene& scene) {
     double area = 0;
@@ -25,25 +17,19 @@ static double surfaceArea(const Scene& scene) {
     return area;
 }
 
-static double targetArea(const Scene& scene) {
-    double area = 0;
-    for (const Target& target : scene.targets) area += std::numbers::pi * target.radius * target.radius;
-    return area;
+float widestRadius(const Scene& scene, uint photons, uint nearest) {
+    const double diagonal = glm::length(glm::dvec3(scene.bounds.high) - glm::dvec3(scene.bounds.low));
+    if (nearest == 0) return static_cast<float>(0.02 * diagonal);
+    const double wanted = 8.0 * nearest; // more than k photons almost everywhere
+    return static_cast<float>(std::min(0.2 * diagonal, std::sqrt(wanted * surfaceArea(scene) / (std::numbers::pi * std::max(photons, 1u)))));
 }
 
-// At most a fiftieth of the scene, so that few photons still make a picture of discs.
-static float chooseRadius(const Scene& scene, double area, double perDisc, uint photons, uint nearest) {
-    const double wanted = nearest ? nearestMargin * nearest : perDisc;
-    const double most = (nearest ? 0.2 : 0.02) * glm::length(glm::dvec3(scene.bounds.high - scene.bounds.low));
-    return static_cast<float>(std::min(most, std::sqrt(wanted * area / (std::numbers::pi * std::max(photons, 1u)))));
-}
-
-Settings chooseRadii(const Scene& scene, Settings settings) {
-    if (!settings.radius)
-        settings.radius = chooseRadius(scene, surfaceArea(scene), globalPhotonsPerDisc, settings.photons, settings.nearest);
-    if (!settings.causticRadius)
-        settings.causticRadius = chooseRadius(scene, targetArea(scene), causticPhotonsPerDisc, settings.causticPhotons, settings.nearest);
-    return settings;
+uint mostLevels(const Scene& scene, float radius) {
+    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
+    const double cells = std::max({reach.x, reach.y, reach.z}) / (2.1 * radius);
+    uint levels = MOST_LEVELS;
+    while (levels > 0 && std::ldexp(cells, static_cast<int>(levels)) > 0x1p18) levels--;
+    return levels;
 }
 
 float radiusFactor(uint pass, float alpha) {

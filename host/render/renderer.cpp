@@ -5,6 +5,11 @@
 
 namespace vkpm {
 
+const uint pilotPass = NONE; // no pass of a render
+
+// A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
+const float nearRadii = 3;
+
 static bool needsGlobal(const Settings& settings) {
     return settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && !settings.showCaustic);
 }
@@ -14,36 +19,59 @@ static bool needsCaustic(const Settings& settings, const Features& has) {
     return wanted && (has.hasMirror || has.hasGlass);
 }
 
+// Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the noise
+// of few photons averages out; caustics are looked at directly.
+const float globalPhotonsPerDisc = 12;
+const float causticPhotonsPerDisc = 6;
+
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
     : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings.size),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
       camera(gpu, scene, sceneHas, settings, needsCaustic(settings, sceneHas), waves.camera), film(gpu, settings.size) {
-    const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons) {
+    const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
-        stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name)});
+        stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
+                                 flux / float(photons), radius.value_or(widestRadius(input, photons, settings.nearest))});
+        if (!radius && settings.nearest == 0 && !settings.showPoints) measureRadii(*stages, mostLevels(input, stages->radius), perDisc, kind == MapKind::global);
     };
-    if (needsGlobal(settings) && settings.photons > 0) construct(global, MapKind::global, settings.photons);
+    if (needsGlobal(settings) && settings.photons > 0) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     else absent.push_back(settings.photons ? "global map: the integrator does not use it" : "global map: no photons asked for");
-    if (needsCaustic(settings, sceneHas) && settings.causticPhotons > 0) construct(caustic, MapKind::caustic, settings.causticPhotons);
+    if (needsCaustic(settings, sceneHas) && settings.causticPhotons > 0)
+        construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
     else if (!sceneHas.hasMirror && !sceneHas.hasGlass) absent.push_back("caustic map: no specular surface");
     else absent.push_back(settings.causticPhotons ? "caustic map: the integrator does not use it" : "caustic map: no photons asked for");
 }
 
-void Renderer::buildMap(std::optional<MapStages>& stages, uint pass, uint photons, float radius) {
+void Renderer::measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius) {
+    const uint stored = static_cast<uint>(stages.tracing.trace(pilotPass).stored);
+    const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
+    stages.field.emplace(gpu).measure(pilot, stored, perDisc);
+    if (oneRadius) {
+        stages.radius = stages.typicalRadius();
+        stages.field.reset();
+    }
+}
+
+void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     // Looking at a map means looking at one map: that of the first pass.
     const bool still = settings.integrator == INTEGRATOR_PHOTON_MAP;
     if (!stages || (still && stages->ledger.emitted > 0)) return;
     if (still) pass = 0;
     const PhotonLedger ledger = stages->tracing.trace(pass);
-    radius *= radiusFactor(pass, settings.alpha);
-    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, flux / float(photons));
+    const float factor = radiusFactor(pass, settings.alpha);
+    const float radius = settings.nearest ? stages->radius : stages->radius * factor;
+    const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 0;
+    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels);
+    stages->map.shrink = factor;
+    if (stages->field) stages->field->apply(stages->map);
     stages->ledger += ledger;
 }
 
 void Renderer::renderPass(uint pass) {
-    buildMap(global, pass, settings.photons, *settings.radius);
-    buildMap(caustic, pass, settings.causticPhotons, *settings.causticRadius);
-    const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}};
+    buildMap(global, pass);
+    buildMap(caustic, pass);
+    const float nearDistance = global ? nearRadii * global->typicalRadius() * radiusFactor(pass, settings.alpha) : 0;
+    const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}, nearDistance};
 
     const uint pixels = settings.size.x * settings.size.y;
     film.begin(pass);

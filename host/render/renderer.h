@@ -4,6 +4,8 @@
 #include "render/film.h"
 #include "render/photon_grid.h"
 #include "render/photon_tracing.h"
+#include "render/radius_field.h"
+#include <cmath>
 #include <optional>
 
 namespace vkpm {
@@ -12,8 +14,14 @@ namespace vkpm {
 struct MapStages {
     PhotonTracing tracing;
     PhotonGrid grid;
+    float flux;                         // W per photon
+    float radius;                       // of the first pass, the widest, world units
+    std::optional<RadiusField> field{}; // where it is less, if the program chooses
     PhotonLedger ledger{};
     PhotonMap map{};
+
+    /// That of most photons in the first pass.
+    float typicalRadius() const { return field ? radius * std::exp2(field->median) : radius; }
 };
 
 /// How many paths are under way at a time; the picture does not depend on it.
@@ -25,7 +33,6 @@ struct WaveSizes {
 /// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
 class Renderer {
 public:
-    /// `settings` with every radius chosen (see radius.h).
     Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, WaveSizes waves = {});
 
     /// Renders the pass of an index, the one after the film's last.
@@ -39,7 +46,8 @@ public:
     const std::optional<MapStages>& causticMap() const { return caustic; }
 
 private:
-    void buildMap(std::optional<MapStages>& stages, uint pass, uint photons, float radius);
+    void measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius);
+    void buildMap(std::optional<MapStages>& stages, uint pass);
 
     Gpu& gpu;
     Settings settings;

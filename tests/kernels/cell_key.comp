@@ -5,4 +5,4 @@
 #include "random.glsl"
 #include "grid.glsl"
 
-MAP(vec3, uint, cellKey(cellOf(x, args.photons.cellsPerUnit), args.photons.cellMask))
+MAP(vec3, uint, cellKey(cellOf(x, args.photons.cellsPerUnit, args.photons.levels), args.photons.levels) & args.photons.cellMask)

@@ -1,0 +1,31 @@
+/// First gather radii by place: small where photons are dense, wide where they are sparse.
+#pragma once
+#include "gpu/recording.h"
+#include "scene/scene.h"
+
+namespace vkpm {
+
+/// A hashed grid over the scene with a radius for each cell, measured in the photon map of a pilot pass.
+class RadiusField {
+public:
+    explicit RadiusField(Gpu& gpu);
+
+    /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius, none
+    /// narrower than that over 2^levels.
+    void measure(const PhotonMap& pilot, uint count, float perDisc);
+    /// Makes gathers in a map use the field.
+    void apply(PhotonMap& map) const;
+
+    /// Binary logarithms of radii in units of the pilot's, at most 0: the smallest, that of most photons, the greatest.
+    float smallest = 0;
+    float median = 0;
+    float greatest = 0;
+
+private:
+    Gpu& gpu;
+    float cellsPerUnit = 0;
+    Buffer<float> values;
+    Kernel<PilotArgs> pilotKernel;
+};
+
+} // namespace vkpm

@@ -1,0 +1,49 @@
+// Measures, at each photon of a pilot map, the radius of a disc that holds `perDisc` photons, and adds its logarithm to the
+// cell of the radius field.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "grid.glsl"
+#include "radius_field.glsl"
+
+ARGS(PilotArgs)
+
+// Photons expected in a disc of the radius that the cells of a level are made for, from those in the eight cells that cover
+// it; on a flat surface these have an area of 4 x 2.1^2 radii squared.
+float photonsInDisc(vec3 position, uint level) {
+    Cells cells = cellsAround(args.map, position, ldexp(args.map.radius, -int(level)));
+    cells.reach2 = INFINITY; // all eight count
+    uint photons = 0u;
+    for (uint corner = 0u; corner < 8u; corner++) {
+        uvec2 range = cellRange(args.map, cells, corner);
+        photons += range.y - range.x;
+    }
+    return float(photons) * (PI / 17.64);
+}
+
+// Binary logarithm of the radius in units of the map's. The finest level decides whose disc holds enough; within it the
+// radius follows the density, but not below the next level's, whose disc holds too few.
+float logRadius(vec3 position) {
+    uint level = 0u;
+    float photons = photonsInDisc(position, 0u);
+    while (level < args.map.levels) {
+        float finer = photonsInDisc(position, level + 1u);
+        if (finer < args.perDisc) break;
+        photons = finer;
+        level++;
+    }
+    return clamp(0.5 * log2(args.perDisc / photons), -1.0, 0.0) - float(level);
+}
+
+void main() {
+    uint i = threadIndex();
+    if (i >= args.count) return;
+    vec3 position = args.map.photons.at[i].position;
+    float value = clamp(-logRadius(position), 0.0, float(args.map.levels));
+
+    // Integers, so that the order of adding does not matter.
+    uint slot = fieldSlot(ivec3(floor(clamp(position * args.map.fieldPerUnit, -1.0e9, 1.0e9))), args.map.fieldMask);
+    atomicAdd(args.sums.at[2u * slot], uint(value * PILOT_UNIT + 0.5));
+    atomicAdd(args.sums.at[2u * slot + 1u], 1u);
+}
