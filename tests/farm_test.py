@@ -1,0 +1,129 @@
+"""tools/farm with a scheduler and two workers: interrupted, then one worker killed, it has the bits of one run."""
+
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from pathlib import Path
+from typing import Any, TypeVar
+
+import psutil
+from distributed import Client
+
+ROOT = Path(__file__).resolve().parent.parent
+SCENE = ROOT / "scenes/glass.json"
+OPTIONS = ["--scene", str(SCENE), "--passes", "24", "--size", "64x48", "--photons", "2000", "--quiet"]
+LOOPBACK = ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]
+DASK = [sys.executable, "-m", "dask"]
+Found = TypeVar("Found")
+
+
+def eventually(what: str, look: Callable[[], Found]) -> Found:
+    """Waits until a look finds something, and returns it."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        if found := look():
+            return found
+        time.sleep(0.02)
+    raise AssertionError(f"waited in vain for {what}")
+
+
+@contextmanager
+def running(*command: object, **options: Any) -> Iterator[subprocess.Popen]:
+    """A process that ends with the block at the latest."""
+    process = subprocess.Popen([str(word) for word in command], **options)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+
+
+@contextmanager
+def scheduler(folder: Path) -> Iterator[str]:
+    """The address of a scheduler on the loopback."""
+    file = folder / "scheduler.json"
+    with running(*DASK, "scheduler", *LOOPBACK, "--port", 0, "--scheduler-file", file):
+        eventually("the scheduler", file.exists)
+        with Client(scheduler_file=file) as client:
+            yield client.scheduler.address
+
+
+def worker(address: str, folder: Path) -> AbstractContextManager[subprocess.Popen]:
+    """A worker that stays dead when it is killed."""
+    return running(*DASK, "worker", address, *LOOPBACK, "--no-nanny", "--nthreads", 1, "--local-directory", folder)
+
+
+def stopped_render(process: subprocess.Popen) -> bool:
+    """Stops the vkpm that a worker runs, and tells whether one stands still."""
+    for child in psutil.Process(process.pid).children():
+        with suppress(psutil.NoSuchProcess):
+            if child.name() == "vkpm":
+                child.suspend()
+                return child.status() == psutil.STATUS_STOPPED
+    return False
+
+
+def processes_naming(*words: object) -> list[psutil.Process]:
+    """All processes that have each of the words in their command line."""
+    lines = ((process, " ".join(process.info["cmdline"] or [])) for process in psutil.process_iter(["cmdline"]))
+    return [process for process, line in lines if all(str(word) in line for word in words)]
+
+
+def parts_in(folder: Path) -> list[Path]:
+    """The parts that a farm has got back."""
+    return list(folder.glob("farm.parts/*/*.exr"))
+
+
+def interrupt_farm(farm: list[str], folder: Path) -> None:
+    """Interrupts a farm when it has a part, and expects that the part stays and no vkpm does."""
+    with running(*farm, "--chunk", 2) as process:
+        eventually("a first part", lambda: parts_in(folder))
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 130
+    eventually("the end of all renders", lambda: not processes_naming(folder, "--pass-range"))
+    assert parts_in(folder)
+
+
+def kill_worker(farm: list[str], folder: Path, victim: subprocess.Popen) -> None:
+    """Kills a worker in the middle of a chunk, and expects the farm to finish."""
+    before = len(parts_in(folder))
+    with running(*farm, "--chunk", 4, stderr=subprocess.PIPE, text=True) as process:
+        eventually("a render on the worker, which shall not end", lambda: stopped_render(victim))
+        eventually("another part", lambda: len(parts_in(folder)) > before)
+        victim.kill()
+        messages = process.communicate(timeout=120)[1]
+    assert process.returncode == 0, messages
+    assert "died; its passes go to another" in messages, messages
+    assert not (folder / "farm.parts").exists()
+
+
+def refuse_option(farm: list[str]) -> None:
+    """Expects vkpm's own message on a wrong option, and its exit code."""
+    refused = subprocess.run([*farm, "--photon", "1"], stderr=subprocess.PIPE, text=True, timeout=60)
+    assert refused.returncode == 2
+    assert refused.stderr.startswith("vkpm: --photon: unknown option"), refused.stderr
+
+
+def main() -> None:
+    """Runs the test for the vkpm that is named by the first argument."""
+    vkpm = sys.argv[1]
+    with tempfile.TemporaryDirectory(prefix="vkpm-farm-test-") as name:
+        folder = Path(name)
+        single, output = folder / "single.exr", folder / "farm.exr"
+        subprocess.run([vkpm, *OPTIONS, "-o", single], check=True)
+        with scheduler(folder) as address, worker(address, folder) as victim, worker(address, folder):
+            farm = [str(ROOT / "tools/farm"), *OPTIONS, "-o", str(output), "--scheduler", address, "--vkpm", vkpm]
+            refuse_option(farm)
+            interrupt_farm(farm, folder)
+            kill_worker(farm, folder, victim)
+        assert output.read_bytes() == single.read_bytes()
+        assert not processes_naming(folder)
+        assert output.with_suffix(".png").read_bytes() == single.with_suffix(".png").read_bytes()
+
+
+if __name__ == "__main__":
+    main()
