@@ -67,6 +67,7 @@ int merge(const Options& options) {
     requireOneRender(parts);
     requireAdjacent(parts, options.part);
     requireWritable(options.output);
+    requireWritable(pngBeside(options.output));
 
     Gpu gpu(options.device);
     requireSoundDriver(gpu);

@@ -28,6 +28,13 @@ PhotonCounts countsOf(const std::optional<MapStages>& stages) {
     return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
 }
 
+std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given) {
+    if (!stages) return {};
+    if (!stages->field) return GatherRadii{stages->radius, stages->radius, stages->radius, given};
+    const auto radius = [&](float logarithm) { return stages->radius * std::exp2(logarithm); };
+    return GatherRadii{radius(stages->field->smallest), radius(stages->field->median), radius(stages->field->greatest), given};
+}
+
 /// One run of the program: a renderer with what was asked for, from the first pass to the saved file.
 class Job {
 public:
@@ -52,6 +59,8 @@ private:
     Statistics statistics() const;
     std::uint64_t rays() const;
     std::uint64_t nonfinite() const;
+    std::optional<GatherRadii> globalRadii() const { return radiiOf(renderer.globalMap(), settings.radius.has_value()); }
+    std::optional<GatherRadii> causticRadii() const { return radiiOf(renderer.causticMap(), settings.causticRadius.has_value()); }
 
     const Options& options;
     const Scene& scene;
@@ -121,7 +130,8 @@ bool Job::done() const {
 void Job::renderPasses() {
     begin = saved = Clock::now();
     log.write("start", {{"scene", options.scene.string()}, {"settings", nlohmann::ordered_json::parse(settingsJson(settings))},
-                        {"passes", {passes.begin, passes.end}}, {"device", gpu.info().name}});
+                        {"passes", {passes.begin, passes.end}}, {"device", gpu.info().name}, {"radius", radiiJson(globalRadii())},
+                        {"causticRadius", radiiJson(causticRadii())}});
     Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), restored}, options.quiet);
     while (!done()) {
         const uint pass = passes.begin + renderer.film.passCount();
@@ -163,6 +173,9 @@ Statistics Job::statistics() const {
     s.rays = rays();
     s.global = countsOf(renderer.globalMap());
     s.caustic = countsOf(renderer.causticMap());
+    s.globalRadii = globalRadii();
+    s.causticRadii = causticRadii();
+    s.radiusFactor = radiusFactor(renderer.film.passes().end - 1, settings.alpha);
     s.features = renderer.features();
     s.leftOut = renderer.leftOut();
     s.nonfinite = nonfinite();
@@ -191,6 +204,7 @@ int render(const Options& options) {
     const Settings settings = options.override(scene.settings);
 
     requireWritable(options.output);
+    requireWritable(pngBeside(options.output));
     if (options.stats) requireWritable(*options.stats);
 
     Gpu gpu(options.device);

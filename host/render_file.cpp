@@ -35,6 +35,8 @@ void restore(Film& film, const RenderFile& file) {
     for (std::size_t i = 0; i < file.runs.size(); i++) film.restore(file.runs[i], named(file.path, [&] { return sumsOf(image, i); }));
 }
 
+std::filesystem::path pngBeside(std::filesystem::path exr) { return exr.replace_extension(".png"); }
+
 void saveRender(const std::filesystem::path& output, Film& film, uvec2 size, float exposure, std::map<std::string, std::string> attributes) {
     const PassRange passes = film.passes();
     Image image = filmImage(film.download(), size, film.passCount());
@@ -44,8 +46,7 @@ void saveRender(const std::filesystem::path& output, Film& film, uvec2 size, flo
     image.attributes["exposure"] = fmt::format("{}", exposure);
     for (std::size_t i = 0; i < film.runCount(); i++) addRun(image, film.run(i), film.sums(i));
     writeExr(output, image);
-    std::filesystem::path png = output;
-    writePng(png.replace_extension(".png"), size, film.develop(exposure));
+    writePng(pngBeside(output), size, film.develop(exposure));
 }
 
 } // namespace vkpm

@@ -22,6 +22,9 @@ RenderFile openRender(const std::filesystem::path& file);
 /// Gives the film all passes of a file. Throws InputError with file and cause.
 void restore(Film& film, const RenderFile& file);
 
+/// The PNG that is written beside an EXR file.
+std::filesystem::path pngBeside(std::filesystem::path exr);
+
 /// Writes the picture of a film with its sums and further attributes, and a PNG beside it under `exposure` stops.
 void saveRender(const std::filesystem::path& output, Film& film, uvec2 size, float exposure, std::map<std::string, std::string> attributes);
 

@@ -1,6 +1,8 @@
 /// Files that are replaced as a whole: written beside the old one, flushed, then renamed over it.
 #include "output/atomic_file.h"
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -93,6 +95,21 @@ Output openBeside(const fs::path& target, const fs::path& shown) {
     return {part, shown, O_CREAT | O_TRUNC | O_NOFOLLOW, true};
 }
 
+/// Removes temporary files of the target that killed processes have left.
+void removeLeftovers(const fs::path& target) {
+    const std::string prefix = target.filename().string() + ".";
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(target.has_parent_path() ? target.parent_path() : ".", error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(prefix) || !name.ends_with(".part")) continue;
+        const std::string middle = name.substr(prefix.size(), name.size() - prefix.size() - std::strlen(".part"));
+        int process = 0;
+        const auto [end, problem] = std::from_chars(middle.data(), middle.data() + middle.size(), process);
+        const bool gone = process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+        if (problem == std::errc() && end == middle.data() + middle.size() && gone) ::unlink(entry.path().c_str());
+    }
+}
+
 /// Whether the name is that of something that cannot be replaced by a file, such as /dev/stdout.
 bool isDevice(const fs::path& path) {
     std::error_code error;
@@ -124,7 +141,9 @@ void replaceFile(const fs::path& path, std::span<const char> bytes) {
 }
 
 void requireWritable(const fs::path& path) {
-    if (!isDevice(path)) openBeside(resolve(path), path);
+    if (isDevice(path)) return;
+    openBeside(resolve(path), path);
+    removeLeftovers(resolve(path));
 }
 
 } // namespace vkpm

@@ -33,6 +33,11 @@ Json featuresJson(const Features& features) {
 
 } // namespace
 
+Json radiiJson(const std::optional<GatherRadii>& radii) {
+    if (!radii) return nullptr;
+    return {{"smallest", radii->smallest}, {"typical", radii->typical}, {"greatest", radii->greatest}, {"chosen_by", radii->given ? "user" : "program"}};
+}
+
 std::string statisticsJson(const Statistics& statistics) {
     Json object;
     object["device"] = statistics.device;
@@ -44,6 +49,9 @@ std::string statisticsJson(const Statistics& statistics) {
     object["stages"] = sums(statistics.stages);
     object["rays"] = statistics.rays;
     object["photons"] = {{"global", photonsJson(statistics.global)}, {"caustic", photonsJson(statistics.caustic)}};
+    object["radius"] = {{"global", radiiJson(statistics.globalRadii)},
+                        {"caustic", radiiJson(statistics.causticRadii)},
+                        {"factor", statistics.radiusFactor}};
     object["memory"] = {{"device_bytes", statistics.deviceBytes}, {"buffers", sums(statistics.buffers)}};
     object["features"] = featuresJson(statistics.features);
     object["left_out"] = statistics.leftOut;

@@ -3,6 +3,8 @@
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,14 @@ struct PhotonCounts {
     std::uint64_t lost = 0;
 };
 
+/// First gather radii of one map, world units: the same everywhere, or by region.
+struct GatherRadii {
+    float smallest = 0;
+    float typical = 0; // of most photons
+    float greatest = 0;
+    bool given = false; // by scene or command line; else the program chose them
+};
+
 struct Statistics {
     std::string device;
     uint seed = 0;
@@ -29,12 +39,18 @@ struct Statistics {
     std::uint64_t rays = 0;                               // of every kind, over all passes
     PhotonCounts global{};
     PhotonCounts caustic{};
+    std::optional<GatherRadii> globalRadii{}; // absent with the map
+    std::optional<GatherRadii> causticRadii{};
+    float radiusFactor = 1; // of the last pass: its radii over those of the first
     std::uint64_t deviceBytes = 0;
     std::vector<std::pair<std::string, std::uint64_t>> buffers{}; // bytes; a name that occurs twice is summed
     Features features{};
     std::vector<std::string> leftOut{}; // stages that this scene does not need
     std::uint64_t nonfinite = 0;      // samples kept from the film
 };
+
+/// The radii as a JSON object; null if absent.
+nlohmann::ordered_json radiiJson(const std::optional<GatherRadii>& radii);
 
 /// The text of the JSON object.
 std::string statisticsJson(const Statistics& statistics);

@@ -1,0 +1,64 @@
+/// The same bits whatever runs how: driver threads, lanes, sizes of waves, repetitions.
+#include "output/exr.h"
+#include "program.h"
+#include "render_support.h"
+#include <cstring>
+#include <fmt/format.h>
+
+namespace vkpm {
+namespace {
+
+class Determinism : public Program {
+protected:
+    // All channels of the box under an environment, and the device that it says.
+    Image renderWith(const std::string& environment) const {
+        const Result result = run("--scene " + scene("box") + " --size 40x32 --passes 3 --photons 5000 --caustic-photons 5000 --quiet -o x.exr", environment);
+        EXPECT_EQ(result.code, 0) << result.output;
+        return readExr(folder / "x.exr");
+    }
+};
+
+void expectSameBits(const Image& a, const Image& b, const std::string& what) {
+    ASSERT_EQ(a.channels.size(), b.channels.size()) << what;
+    for (std::size_t i = 0; i < a.channels.size(); i++) {
+        const auto& [name, values] = a.channels[i];
+        ASSERT_EQ(values.size(), b.channels[i].values.size());
+        EXPECT_EQ(std::memcmp(values.data(), b.channels[i].values.data(), values.size() * sizeof(float)), 0) << what << ", " << name;
+    }
+}
+
+TEST_F(Determinism, DriverThreadsAndLanesDoNotMatter) {
+    const Image plain = renderWith("");
+    expectSameBits(renderWith(""), plain, "another run");
+    for (const int threads : {1, 2, 3}) expectSameBits(renderWith(fmt::format("LP_NUM_THREADS={}", threads)), plain, fmt::format("{} threads", threads));
+
+    for (const int bits : {128, 256, 512}) {
+        const Image lanes = renderWith(fmt::format("LP_NATIVE_VECTOR_WIDTH={}", bits));
+        EXPECT_NE(lanes.attributes.at("device").find(fmt::format("{} bits", bits)), std::string::npos) << lanes.attributes.at("device");
+        expectSameBits(lanes, plain, fmt::format("{} lanes", bits / 32));
+    }
+}
+
+std::vector<Pixel> renderInWaves(const Scene& scene, WaveSizes waves) {
+    Settings settings = scene.settings;
+    settings.size = {40, 32};
+    settings.photons = settings.causticPhotons = 3000;
+    Renderer renderer(testGpu(), scene, settings, waves);
+    for (const uint pass : {0u, 1u}) renderer.renderPass(pass);
+    return renderer.film.download();
+}
+
+TEST(Waves, SizesDoNotMatter) {
+    for (const char* name : {"box", "ring"}) {
+        const Scene scene = shippedScene(name);
+        const std::vector<Pixel> whole = renderInWaves(scene, {});
+        for (const WaveSizes waves : {WaveSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
+            const std::vector<Pixel> parts = renderInWaves(scene, waves);
+            EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
+                << name << ", waves of " << waves.photons << " photons and " << waves.camera << " paths";
+        }
+    }
+}
+
+} // namespace
+} // namespace vkpm

@@ -1,0 +1,217 @@
+/// Renders that go on, are cut into parts, stopped by time, killed, or run out of disk.
+#include "output/exr.h"
+#include "program.h"
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <spawn.h>
+#include <thread>
+
+namespace vkpm {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using nlohmann::json;
+
+std::string bytesOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Resume : public Program {
+protected:
+    const std::string box = "--scene " + scene("box") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet ";
+
+    void render(const std::string& arguments) const {
+        const Result result = run(box + arguments);
+        EXPECT_EQ(result.code, 0) << result.output;
+    }
+    void merge(const std::string& arguments) const {
+        const Result result = run("merge " + arguments);
+        EXPECT_EQ(result.code, 0) << result.output;
+    }
+    std::string refusal(const std::string& arguments) const {
+        const Result result = run(arguments);
+        EXPECT_EQ(result.code, 2) << arguments << "\n" << result.output;
+        return result.output;
+    }
+    void expectSameFiles(const std::string& a, const std::string& b) const {
+        for (const char* kind : {".exr", ".png"}) EXPECT_TRUE(bytesOf(folder / (a + kind)) == bytesOf(folder / (b + kind))) << a << " and " << b << kind;
+    }
+    int passesOf(const std::string& file) const { return std::stoi(readExrHeader(folder / file).attributes.at("passes")); }
+};
+
+TEST_F(Resume, HalvesAndPartsGiveTheFileOfOneRun) {
+    render("--passes 21 -o whole.exr");
+    render("--passes 9 -o halves.exr");
+    render("--passes 21 --resume -o halves.exr");
+    expectSameFiles("halves", "whole");
+    render("--passes 21 --resume -o halves.exr"); // nothing left to do
+    expectSameFiles("halves", "whole");
+    render("--passes 21 --resume -o fresh.exr"); // nothing there yet
+    expectSameFiles("fresh", "whole");
+
+    for (const auto& [range, name] : {std::pair("0:5", "a"), {"5:6", "b"}, {"6:16", "c"}, {"16:21", "d"}}) render(fmt::format("--pass-range {} -o {}.exr", range, name));
+    merge("ordered.exr a.exr b.exr c.exr d.exr");
+    expectSameFiles("ordered", "whole");
+    merge("shuffled.exr d.exr b.exr a.exr c.exr");
+    expectSameFiles("shuffled", "whole");
+    merge("--part inner.exr c.exr b.exr");
+    merge("nested.exr d.exr inner.exr a.exr");
+    expectSameFiles("nested", "whole");
+    render("--pass-range 16:19 -o e.exr");
+    render("--pass-range 16:21 --resume -o e.exr");
+    expectSameFiles("e", "d");
+    merge("a.exr a.exr"); // over its own part
+    EXPECT_EQ(passesOf("a.exr"), 5);
+}
+
+TEST_F(Resume, MergeRefusesByName) {
+    for (const char* range : {"0:4", "2:6", "4:8", "12:16"}) render(fmt::format("--pass-range {} -o {}.exr", range, std::string(range).replace(std::string(range).find(':'), 1, "-")));
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr 2-6.exr"), AllOf(HasSubstr("0-4.exr and 2-6.exr"), HasSubstr("passes 2 to 3")));
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr 0-4.exr"), HasSubstr("passes 0 to 3"));
+    EXPECT_THAT(refusal("merge x.exr 12-16.exr 0-4.exr 4-8.exr"), AllOf(HasSubstr("passes 8 to 11 are missing"), HasSubstr("4-8.exr and 12-16.exr")));
+    EXPECT_THAT(refusal("merge x.exr 4-8.exr"), AllOf(HasSubstr("passes 0 to 3 are missing"), HasSubstr("--part")));
+
+    const std::string other = "--scene " + scene("box") + " --size 24x16 --photons 600 --caustic-photons 300 --quiet --pass-range 4:8 -o ";
+    EXPECT_EQ(run(other + "photons.exr").code, 0);
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr photons.exr"), AllOf(HasSubstr("photons.exr"), HasSubstr("photons: 600"), HasSubstr("500")));
+    EXPECT_EQ(run("--scene " + scene("ring") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet --pass-range 4:8 -o ring.exr").code, 0);
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr ring.exr"), AllOf(HasSubstr("ring.exr"), HasSubstr("scene: /")));
+    EXPECT_EQ(run("--scene " + scene("box") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet --seed 1 --pass-range 4:8 -o seed.exr").code, 0);
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr seed.exr"), HasSubstr("seed: 1"));
+
+    writeExr(folder / "stranger.exr", Image{{2, 2}, {{"R", {1, 2, 3, 4}}}, {}});
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr stranger.exr"), HasSubstr("stranger.exr: is not a render of vkpm"));
+    const std::string whole = bytesOf(folder / "4-8.exr");
+    std::ofstream(folder / "cut.exr", std::ios::binary) << whole.substr(0, whole.size() / 2);
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr cut.exr"), HasSubstr("cut.exr"));
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr nothere.exr"), HasSubstr("nothere.exr"));
+    EXPECT_FALSE(fs::exists(folder / "x.exr"));
+}
+
+TEST_F(Resume, RefusesOtherSettingsWithWhatDiffers) {
+    render("--passes 3 -o x.exr");
+    const std::string before = bytesOf(folder / "x.exr");
+    const std::string same = "--scene " + scene("box") + " --size 24x16 --caustic-photons 300 --quiet --passes 6 --resume -o x.exr ";
+    EXPECT_THAT(refusal(same + "--photons 501"), AllOf(HasSubstr("x.exr"), HasSubstr("photons: 501 here, 500 there")));
+    EXPECT_THAT(refusal(same + "--photons 500 --alpha 1 --kernel cone"), AllOf(HasSubstr("alpha: 1.0 here"), HasSubstr("kernel: \"cone\" here")));
+    EXPECT_THAT(refusal(same + "--photons 500 --radius 0.1"), HasSubstr("radius: 0.1"));
+    EXPECT_THAT(refusal(box + "--pass-range 1:6 --resume -o x.exr"), AllOf(HasSubstr("passes 0 to 2"), HasSubstr("begins with pass 1")));
+    EXPECT_TRUE(bytesOf(folder / "x.exr") == before);
+
+    // What a scene says of itself and how many passes it wants may change, what it shows may not.
+    json text = json::parse(bytesOf(scene("box")));
+    text["about"] = "another text";
+    text["settings"]["passes"] = 5;
+    std::ofstream(folder / "box2.json") << text;
+    EXPECT_EQ(run("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr").code, 0);
+    EXPECT_EQ(passesOf("x.exr"), 5);
+    text["camera"]["fieldOfView"] = 31;
+    std::ofstream(folder / "box2.json") << text;
+    EXPECT_THAT(refusal("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr"), HasSubstr("scene: /camera/fieldOfView"));
+}
+
+TEST_F(Resume, TimeIsKeptWithinOnePass) {
+    for (const double seconds : {0.5, 2.0}) {
+        const Result result = run("--scene " + scene("box") + " --size 96x64 --photons 20000 --quiet --stats s.json -o x.exr --time " + std::to_string(seconds));
+        ASSERT_EQ(result.code, 0) << result.output;
+        const json stats = json::parse(bytesOf(folder / "s.json"));
+        const double rendered = stats["seconds"]["render"];
+        const double pass = rendered / stats["passes"].get<double>();
+        std::printf("--time %.1f: %.3f s, %d passes of %.3f s\n", seconds, rendered, stats["passes"].get<int>(), pass);
+        // "Within one pass" of the mean length; single passes differ, the first compiles kernels.
+        EXPECT_NEAR(rendered, seconds, std::max(1.5 * pass, 0.1));
+    }
+    render("--time 1000 --passes 3 -o y.exr"); // the first that is reached
+    EXPECT_EQ(passesOf("y.exr"), 3);
+}
+
+// A child that renders for ever, saving all the time.
+class Child {
+public:
+    Child(const fs::path& folder, const std::string& sceneFile) {
+        const std::string output = folder / "x.exr", log = folder / "log.jsonl";
+        std::vector<std::string> words{VKPM_PROGRAM, "--scene", sceneFile, "--size", "24x16", "--photons", "500", "--caustic-photons", "300", "--quiet",
+                                       "--passes", "100000", "--resume", "--checkpoint", "0.05", "--log", log, "-o", output};
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        EXPECT_EQ(::posix_spawn(&pid, VKPM_PROGRAM, nullptr, nullptr, arguments.data(), environ), 0);
+    }
+    ~Child() {
+        ::kill(pid, SIGKILL);
+        ::waitpid(pid, nullptr, 0);
+    }
+
+private:
+    pid_t pid = 0;
+};
+
+// The last checkpoint that the log says is done; a line may be cut off.
+int lastCheckpoint(const fs::path& log) {
+    int passes = 0;
+    std::ifstream file(log);
+    for (std::string line; std::getline(file, line);) {
+        const json event = json::parse(line, nullptr, false);
+        if (event.is_object() && event["event"] == "checkpoint") passes = event["passes"];
+    }
+    return passes;
+}
+
+TEST_F(Resume, KilledAtAnyMomentItLosesAnIntervalAtMost) {
+    const fs::path output = folder / "x.exr";
+    std::mt19937 random(3);
+    int before = 0, kills = 0;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(8);
+    while ((kills < 24 || before < 30) && std::chrono::steady_clock::now() < deadline) {
+        {
+            const Child child(folder, scene("box"));
+            // From its first save on, or, now and then, during the start.
+            const int checkpoints = lastCheckpoint(folder / "log.jsonl");
+            for (int wait = 0; kills % 4 != 0 && wait < 600 && lastCheckpoint(folder / "log.jsonl") == checkpoints; wait++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            std::this_thread::sleep_for(std::chrono::microseconds(random() % 200'000));
+        }
+        kills++;
+        if (!fs::exists(output)) continue;
+        const Image image = readExr(output); // opens, whole
+        const int passes = std::stoi(image.attributes.at("passes"));
+        ASSERT_GE(passes, before);
+        ASSERT_GE(passes, lastCheckpoint(folder / "log.jsonl"));
+        before = passes;
+    }
+    EXPECT_GE(kills, 24);
+    ASSERT_GE(before, 30);
+    std::printf("%d kills, %d passes saved\n", kills, before);
+
+    render(fmt::format("--passes {} --resume -o x.exr", before + 3));
+    render(fmt::format("--passes {} -o y.exr", before + 3));
+    expectSameFiles("x", "y");
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) files += entry.path().string().ends_with(".part");
+    EXPECT_EQ(files, 0) << "left by the killed";
+}
+
+// A limit on the size of files stands for a full disk: write() fails in the same way, without the rights to mount one.
+TEST_F(Resume, AFullDiskLeavesTheLastGoodFile) {
+    render("--passes 2 -o x.exr");
+    const std::string before = bytesOf(folder / "x.exr");
+    const Result atEnd = run(box + "--passes 3 --resume -o x.exr", "ulimit -f 16;");
+    EXPECT_EQ(atEnd.code, 1);
+    EXPECT_THAT(atEnd.output, AllOf(HasSubstr("x.exr"), HasSubstr("File too large")));
+    EXPECT_TRUE(bytesOf(folder / "x.exr") == before);
+
+    // On the way it is a warning: space may come back before the end.
+    const Result onTheWay = run(box + "--time 1 --resume --checkpoint 0.2 -o x.exr", "ulimit -f 16;");
+    EXPECT_EQ(onTheWay.code, 1);
+    EXPECT_THAT(onTheWay.output, AllOf(HasSubstr("warning: checkpoint"), HasSubstr("rendering goes on")));
+    EXPECT_TRUE(bytesOf(folder / "x.exr") == before);
+}
+
+} // namespace
+} // namespace vkpm
