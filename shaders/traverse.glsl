@@ -30,16 +30,17 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
     uint depth = 0u;
     uint node = 0u;
     Hit hit = Hit(tMax, NONE, vec2(0.0));
+    NodePtr nodes = NodePtr(scene.nodes);
+    floatPtr planes = floatPtr(scene.nodes);
     while (true) {
         bool finished = false; // with this subtree
         if ((node & LEAF) == 0u) {
-            floatPtr planes = floatPtr(scene.nodes);
             uvec3 near = NODE_WORDS * node + ray.near;
             uvec3 far = NODE_WORDS * node + ray.far;
             float left = intersectSlabs(ray, loadVec3(planes, near), loadVec3(planes, far), hit.t);
             float right = intersectSlabs(ray, loadVec3(planes, near + 6u), loadVec3(planes, far + 6u), hit.t);
-            uint leftChild = NodePtr(scene.nodes).at[node].left;
-            uint rightChild = NodePtr(scene.nodes).at[node].right;
+            uint leftChild = nodes.at[node].left;
+            uint rightChild = nodes.at[node].right;
             bool swap = right < left;
             if (max(left, right) < INFINITY) stack[depth++] = swap ? leftChild : rightChild;
             if (min(left, right) < INFINITY) node = swap ? rightChild : leftChild;
