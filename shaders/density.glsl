@@ -27,7 +27,7 @@ vec3 estimateWithin(PhotonMap map, Query query, float radius) {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            Photon photon = map.photons.at[i];
+            Photon photon = PhotonPtr(map.photons).at[i];
             float distance2 = photonDistance2(photon, query, radius);
             if (distance2 < INFINITY) sum += photon.color * densityWeight(densityKernel, distance2 / (radius * radius));
         }
@@ -44,7 +44,7 @@ uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
+            float distance2 = photonDistance2(PhotonPtr(map.photons).at[i], query, map.radius);
             if (distance2 < low) below++;
             else if (distance2 < high) bins[min(uint((distance2 - low) / (high - low) * float(BINS)), BINS - 1u)]++;
         }
@@ -59,7 +59,7 @@ float farthestBelow(PhotonMap map, Query query, float high) {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            float distance2 = photonDistance2(map.photons.at[i], query, map.radius);
+            float distance2 = photonDistance2(PhotonPtr(map.photons).at[i], query, map.radius);
             if (distance2 < high) farthest = max(farthest, distance2);
         }
     }

@@ -19,7 +19,7 @@ void main() {
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
     vec2 choice = sample2(s, 0u);
-    Light light = scene.lights.at[chooseLight(scene, choice.x)];
+    Light light = LightPtr(scene.lights).at[chooseLight(scene, choice.x)];
     LightPoint point = sampleLight(light, sample2(s, 1u));
     if (light.twoSided != 0u && choice.y < 0.5) point.normal = -point.normal;
 

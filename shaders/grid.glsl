@@ -50,5 +50,5 @@ uvec2 cellRange(PhotonMap map, Cells cells, uint corner) {
     uint below = 3u * (map.levels - cells.level);
     uint key = cellKey(cells.first + side, cells.level);
     uint first = key << below & map.cellMask;
-    return uvec2(map.cells.at[first], map.cells.at[first + (1u << below)]);
+    return uvec2(uintPtr(map.cells).at[first], uintPtr(map.cells).at[first + (1u << below)]);
 }

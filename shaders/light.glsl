@@ -13,7 +13,7 @@ uint chooseLight(DeviceScene scene, float u) {
     uint high = scene.lightCount - 1u;
     while (low < high) {
         uint middle = (low + high) / 2u;
-        if (u < scene.lightCdf.at[middle]) high = middle;
+        if (u < floatPtr(scene.lightCdf).at[middle]) high = middle;
         else low = middle + 1u;
     }
     return low;

@@ -39,7 +39,7 @@ float logRadius(vec3 position) {
 void main() {
     uint i = threadIndex();
     if (i >= args.count) return;
-    vec3 position = args.map.photons.at[i].position;
+    vec3 position = PhotonPtr(args.map.photons).at[i].position;
     float value = clamp(-logRadius(position), 0.0, float(args.map.levels));
 
     // Integers, so that the order of adding does not matter.

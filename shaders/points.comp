@@ -20,7 +20,7 @@ void main() {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(args.map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            Photon photon = args.map.photons.at[i];
+            Photon photon = PhotonPtr(args.map.photons).at[i];
             if (photonDistance2(photon, query, radius) < INFINITY) sum += photon.color;
         }
     }

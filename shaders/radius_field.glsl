@@ -15,7 +15,7 @@ float radiusAt(PhotonMap map, vec3 position) {
     float weights = 0.0;
     for (uint corner = 0u; corner < 8u; corner++) {
         ivec3 side = ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u);
-        float value = map.field.at[fieldSlot(first + side, map.fieldMask)];
+        float value = floatPtr(map.field).at[fieldSlot(first + side, map.fieldMask)];
         if (value > 0.0) continue; // unknown
         vec3 near = mix(1.0 - part, part, vec3(side));
         float weight = near.x * near.y * near.z;

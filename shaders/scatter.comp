@@ -58,7 +58,7 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
 
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
-    Material material = scene.materials.at[surface.material];
+    Material material = MaterialPtr(scene.materials).at[surface.material];
     uint fate;
     if (!isDiffuse(material)) {
         fate = scatterAtSpecular(path, material, surface, s);

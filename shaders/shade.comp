@@ -40,7 +40,7 @@ void seeLight(uint slot, Path path, Light light, vec3 normal) {
 
 // Asks for one light sample, chosen by flux, uniform over the light's area.
 bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight, Sampler s) {
-    Light light = scene.lights.at[chooseLight(scene, bounceSample(s, 0u).x)];
+    Light light = LightPtr(scene.lights).at[chooseLight(scene, bounceSample(s, 0u).x)];
     LightPoint point = sampleLight(light, bounceSample(s, 1u));
     vec3 toLight = point.position - surface.position;
     float distance2 = dot(toLight, toLight);
@@ -119,7 +119,7 @@ uint shade(uint slot) {
     Hit hit = args.hits.at[slot];
     if (hit.primitive == NONE) return 0u;
     Surface surface = surfaceAt(scene, path, hit);
-    Material material = scene.materials.at[surface.material];
+    Material material = MaterialPtr(scene.materials).at[surface.material];
     float travelled = path.travelled + hit.t;
     if (args.bounce == 0u) {
         args.samples.at[slot].albedo = material.color;
@@ -128,7 +128,7 @@ uint shade(uint slot) {
         args.samples.at[slot].covered = 1.0;
     }
     if (surface.light != NONE && integrator != INTEGRATOR_PHOTON_MAP)
-        seeLight(slot, path, scene.lights.at[surface.light], surface.normal);
+        seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
 
     Sampler s = pixelSampler(args.firstPixel + slot, args.pass, args.seed);
     path.travelled = travelled;

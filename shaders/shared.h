@@ -15,11 +15,15 @@ using uint = std::uint32_t;
 template <class T> struct Ptr { std::uint64_t address = 0; };
 
 #define PTR(T) Ptr<T>
+#define ADDRESS(T) Ptr<T>
 #define BUFFER(T)
 #else
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
 #define PTR(T) T##Ptr
+// In a struct that kernels copy or hand on: there, and for casts, SwiftShader fails on pointers. Read as TPtr(address).at[i].
+#define ADDRESS(T) uvec2
 #define BUFFER(T) layout(buffer_reference, scalar, buffer_reference_align = 4) buffer T##Ptr { T at[]; };
 #endif
 
@@ -162,14 +166,14 @@ struct Camera {
 
 /// Addresses of the arrays of a scene; what a scene lacks has address 0.
 struct DeviceScene {
-    PTR(Node) nodes;
-    PTR(Leaf) leaves;
-    PTR(Primitive) primitives;
-    PTR(Normals) normals;
-    PTR(Material) materials;
-    PTR(Light) lights;
-    PTR(float) lightCdf; // upper ends, the last is 1
-    PTR(Target) targets;
+    ADDRESS(Node) nodes;
+    ADDRESS(Leaf) leaves;
+    ADDRESS(Primitive) primitives;
+    ADDRESS(Normals) normals;
+    ADDRESS(Material) materials;
+    ADDRESS(Light) lights;
+    ADDRESS(float) lightCdf; // upper ends, the last is 1
+    ADDRESS(Target) targets;
     uint triangleCount;
     uint lightCount;
     uint targetCount;
@@ -365,9 +369,9 @@ struct PlaceArgs {
 
 /// Photons in the order of their cells' keys, where each key starts, and how far to gather.
 struct PhotonMap {
-    PTR(Photon) photons;
-    PTR(uint) cells;    // cellMask + 2 entries
-    PTR(float) field;   // binary logarithms of radii in units of `radius`, or 1 where unknown
+    ADDRESS(Photon) photons;
+    ADDRESS(uint) cells;  // cellMask + 2 entries
+    ADDRESS(float) field; // binary logarithms of radii in units of `radius`, or 1 where unknown
     float cellsPerUnit; // of the widest cells
     uint cellMask;
     uint levels;  // how often a cell is split into eight

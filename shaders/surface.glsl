@@ -19,7 +19,7 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     vec3 normal = normalize(cross(p.b - p.a, p.c - p.a));
     vec3 shading = normal;
     if (hasSmoothNormals != 0u && p.normals != NONE) {
-        Normals n = scene.normals.at[p.normals];
+        Normals n = NormalsPtr(scene.normals).at[p.normals];
         shading = normalize(first * n.a + weights.x * n.b + weights.y * n.c);
         if (dot(shading, normal) < 0.0) shading = -shading;
     }
@@ -33,7 +33,7 @@ Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {
-    Primitive p = scene.primitives.at[hit.primitive];
+    Primitive p = PrimitivePtr(scene.primitives).at[hit.primitive];
     if (hasSpheres != 0u && (hasTriangles == 0u || hit.primitive >= scene.triangleCount))
         return sphereSurface(p, path.origin + hit.t * path.direction, hit);
     return triangleSurface(scene, p, hit);

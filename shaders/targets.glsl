@@ -35,14 +35,14 @@ vec3 sampleTarget(Target target, LightPoint point, vec2 u) {
 // density of the mixture, so a direction covered by several targets counts once; 0 if it is below the horizon.
 float aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice, out vec3 direction) {
     float total = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++) total += targetSolidAngle(scene.targets.at[i], point.position);
+    for (uint i = 0u; i < scene.targetCount; i++) total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
     uint chosen = 0u;
-    float left = choice * total - targetSolidAngle(scene.targets.at[0], point.position);
-    while (left >= 0.0 && chosen + 1u < scene.targetCount) left -= targetSolidAngle(scene.targets.at[++chosen], point.position);
+    float left = choice * total - targetSolidAngle(TargetPtr(scene.targets).at[0], point.position);
+    while (left >= 0.0 && chosen + 1u < scene.targetCount) left -= targetSolidAngle(TargetPtr(scene.targets).at[++chosen], point.position);
 
-    direction = sampleTarget(scene.targets.at[chosen], point, u);
+    direction = sampleTarget(TargetPtr(scene.targets).at[chosen], point, u);
     float density = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++) density += targetDensity(scene.targets.at[i], point, direction, i == chosen);
+    for (uint i = 0u; i < scene.targetCount; i++) density += targetDensity(TargetPtr(scene.targets).at[i], point, direction, i == chosen);
     float cosine = dot(direction, point.normal);
     return cosine > 0.0 ? cosine / PI * total / density : 0.0;
 }

@@ -7,11 +7,11 @@ vec3 loadVec3(floatPtr numbers, uvec3 at) {
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
 void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit hit) {
-    uint id = scene.leaves.at[slot].id;
+    uint id = LeafPtr(scene.leaves).at[slot].id;
     vec2 weights = vec2(0.0);
     float t;
     if (hasSpheres != 0u && (hasTriangles == 0u || id >= scene.triangleCount)) {
-        t = intersectSphere(ray, scene.leaves.at[slot].a, scene.leaves.at[slot].b.x);
+        t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x);
     } else {
         // Loads in the order of the ray's axes save the exchange.
         floatPtr numbers = floatPtr(scene.leaves);
@@ -30,16 +30,17 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
     uint depth = 0u;
     uint node = 0u;
     Hit hit = Hit(tMax, NONE, vec2(0.0));
+    NodePtr nodes = NodePtr(scene.nodes);
+    floatPtr planes = floatPtr(scene.nodes);
     while (true) {
         bool finished = false; // with this subtree
         if ((node & LEAF) == 0u) {
-            floatPtr planes = floatPtr(scene.nodes);
             uvec3 near = NODE_WORDS * node + ray.near;
             uvec3 far = NODE_WORDS * node + ray.far;
             float left = intersectSlabs(ray, loadVec3(planes, near), loadVec3(planes, far), hit.t);
             float right = intersectSlabs(ray, loadVec3(planes, near + 6u), loadVec3(planes, far + 6u), hit.t);
-            uint leftChild = scene.nodes.at[node].left;
-            uint rightChild = scene.nodes.at[node].right;
+            uint leftChild = nodes.at[node].left;
+            uint rightChild = nodes.at[node].right;
             bool swap = right < left;
             if (max(left, right) < INFINITY) stack[depth++] = swap ? leftChild : rightChild;
             if (min(left, right) < INFINITY) node = swap ? rightChild : leftChild;

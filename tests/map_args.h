@@ -9,8 +9,8 @@ namespace vkpm {
 #endif
 
 struct MapArgs {
-    PTR(uint) xs; // their types are the kernel's
-    PTR(uint) ys;
+    ADDRESS(uint) xs; // their types are the kernel's
+    ADDRESS(uint) ys;
     PTR(DeviceScene) scene;
     PhotonMap photons;
     uint count;

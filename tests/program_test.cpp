@@ -1,47 +1,16 @@
 /// The program as its users run it: exit codes, files, refusals, determinism, and what an interrupt leaves.
 #include "output/exr.h"
 #include "output/image.h"
+#include "program.h"
 #include "scene_text.h"
 #include <csignal>
-#include <cstdlib>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <thread>
 
 namespace vkpm {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-struct Result {
-    int code = 0;
-    std::string output; // stdout and stderr
-};
-
-class Program : public testing::Test {
-protected:
-    void SetUp() override {
-        folder = fs::temp_directory_path() / ("vkpm-program-test-" + std::to_string(::getpid()));
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    Result run(const std::string& arguments) const {
-        const fs::path log = folder / "log.txt";
-        const std::string command = "cd '" + folder.string() + "' && '" VKPM_PROGRAM "' " + arguments + " > '" + log.string() + "' 2>&1";
-        const int status = std::system(command.c_str());
-        std::ifstream file(log);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
-    }
-
-    static std::string scene(const std::string& name) { return std::string(VKPM_SCENES) + "/" + name + ".json"; }
-    const std::string small = " --size 24x16 --passes 2 --photons 500 --caustic-photons 500 ";
-
-    fs::path folder;
-};
 
 std::string bytesOf(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);

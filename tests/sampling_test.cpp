@@ -2,6 +2,7 @@
 #include "judge.h"
 #include "map.h"
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace vkpm {
 namespace {
@@ -9,6 +10,18 @@ namespace {
 using glm::dvec3;
 
 const uint count = 1u << 20;
+
+TEST(Sampling, UnitCircle) {
+    const uint steps = 1u << 16;
+    std::vector<float> turns(steps + 1);
+    for (uint i = 0; i <= steps; i++) turns[i] = static_cast<float>(i) / steps;
+    const auto ys = map<vec2>("unit_circle", turns);
+    for (uint i = 0; i <= steps; i++) {
+        const double angle = 2 * std::numbers::pi * turns[i];
+        ASSERT_NEAR(ys[i].x, std::cos(angle), 2e-7) << turns[i];
+        ASSERT_NEAR(ys[i].y, std::sin(angle), 2e-7) << turns[i];
+    }
+}
 
 TEST(Sampling, UniformDisc) {
     Histogram histogram(16, 16);

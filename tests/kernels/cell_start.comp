@@ -5,4 +5,4 @@
 #include "random.glsl"
 #include "grid.glsl"
 
-MAP(uint, uint, args.photons.cells.at[x])
+MAP(uint, uint, uintPtr(args.photons.cells).at[x])

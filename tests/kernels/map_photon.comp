@@ -5,4 +5,4 @@
 #include "random.glsl"
 #include "grid.glsl"
 
-MAP(uint, Photon, args.photons.photons.at[x])
+MAP(uint, Photon, PhotonPtr(args.photons.photons).at[x])
