@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 #include <gtest/gtest.h>
-#include <random>
 
 namespace vkpm {
 namespace {
@@ -28,13 +27,13 @@ std::vector<PassRange> runsOf(PassRange passes) {
 }
 
 TEST(PassRuns, DependOnTheRangeAlone) {
-    std::mt19937 random(1);
+    Random random(1);
     for (int trial = 0; trial < 2000; trial++) {
-        const uint begin = random() % 300;
-        const uint end = begin + 1 + random() % 300;
+        const uint begin = random.bits() % 300;
+        const uint end = begin + 1 + random.bits() % 300;
         std::vector<PassRange> merged;
         for (uint first = begin; first < end;) {
-            const uint last = std::min<uint>(end, first + 1 + random() % 40);
+            const uint last = std::min<uint>(end, first + 1 + random.bits() % 40);
             for (const PassRange run : runsOf({first, last})) append(merged, run);
             first = last;
         }
@@ -64,11 +63,11 @@ TEST(PassRuns, JoinOnlyTheNextSibling) {
 const uvec2 size{8, 4};
 
 std::vector<Sample> samplesOf(uint pass) {
-    std::mt19937 random(pass);
+    Random random(pass);
     std::vector<Sample> samples(size.x * size.y);
     for (Sample& sample : samples)
         for (std::size_t k = 0; k < sizeof(Sample) / 4; k++)
-            reinterpret_cast<float*>(&sample)[k] = std::exp(0.3f * float(random() % 100)) * (random() % 2 ? 1e-3f : 1.0f);
+            reinterpret_cast<float*>(&sample)[k] = std::exp(0.3f * float(random.bits() % 100)) * (random.bits() % 2 ? 1e-3f : 1.0f);
     return samples;
 }
 

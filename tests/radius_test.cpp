@@ -61,7 +61,7 @@ std::vector<float> measuredRadii(const std::vector<Photon>& photons, float perDi
 }
 
 TEST(RadiusField, DiscsHoldAsManyPhotonsAsWanted) {
-    for (const uint count : {5000u, 20'000u, 100'000u, 400'000u}) {
+    for (const uint count : {5000u, 20'000u, 80'000u}) {
         const double expected = std::sqrt(20 * 64 / (pi * count)); // of a disc that holds 20
         std::vector<vec3> places;
         for (int i = -3; i <= 3; i++) places.push_back({0.9f * float(i), 0.37f * float(i), 0.1f});

@@ -9,7 +9,8 @@ namespace vkpm {
 /// Throws std::runtime_error with file, call, cause and what helps.
 void replaceFile(const std::filesystem::path& path, std::span<const char> bytes);
 
-/// Throws as replaceFile would if a file could not be created there: to be asked before a long render.
+/// Throws as replaceFile would if a file could not be created there: to be asked before a long render. Removes what killed
+/// processes have left beside it.
 void requireWritable(const std::filesystem::path& path);
 
 } // namespace vkpm

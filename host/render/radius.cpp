@@ -19,7 +19,8 @@ static double surfaceArea(const Scene& scene) {
 
 float widestRadius(const Scene& scene, uint photons, uint nearest) {
     const double diagonal = glm::length(glm::dvec3(scene.bounds.high) - glm::dvec3(scene.bounds.low));
-    if (nearest == 0) return static_cast<float>(0.02 * diagonal);
+    const double many = 200'000;
+    if (nearest == 0) return static_cast<float>(0.02 * diagonal * std::sqrt(many / std::max<double>(photons, many)));
     const double wanted = 8.0 * nearest; // more than k photons almost everywhere
     return static_cast<float>(std::min(0.2 * diagonal, std::sqrt(wanted * surfaceArea(scene) / (std::numbers::pi * std::max(photons, 1u)))));
 }

@@ -4,8 +4,8 @@
 
 namespace vkpm {
 
-/// The widest first radius that the program chooses by itself, world units: a fiftieth of the scene, or, where the k
-/// nearest photons out of `photons` are sought (nearest > 0), wide enough to hold them almost everywhere.
+/// The widest first radius that the program chooses by itself, world units: a fiftieth of the scene, less if there are many
+/// photons, or, where the k nearest of them are sought (nearest > 0), wide enough to hold them almost everywhere.
 float widestRadius(const Scene& scene, uint photons, uint nearest);
 
 /// How often the grid's cells may be split before the rounding of the scene's coordinates shows in them.
