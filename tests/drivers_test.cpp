@@ -31,16 +31,20 @@ protected:
         Layers layers;
         for (const auto& [name, values] : image.channels) {
             const std::size_t dot = name.find('.');
-            auto& layer = layers[dot == std::string::npos ? "beauty" : name.substr(0, dot)];
+            const std::string prefix = dot == std::string::npos ? "beauty" : name.substr(0, dot);
+            if (prefix.starts_with("state")) continue; // sums of the same values
+            auto& layer = layers[prefix];
             layer.insert(layer.end(), values.begin(), values.end());
         }
         return layers;
     }
 };
 
-// Drivers round differently, and now and then rounding sends a path elsewhere: over twelve seeds no mean was off by more than
-// 3.1e-4. Where directions came from the drivers' own sine, means were off by 2e-3.
-const double tolerance = 1e-3;
+// Drivers round differently, and now and then rounding sends a path elsewhere: over sixteen seeds no mean was off by more than
+// 5.4e-4, and no root of mean squares by more than 3.8e-3. Where directions came from the drivers' own sine, these were
+// 2e-3 and 0.14.
+const double meanTolerance = 1e-3;
+const double rootTolerance = 2e-2;
 
 TEST_F(Drivers, RenderTheSamePicture) {
     const fs::path lavapipe = findFile("/usr/share/vulkan/icd.d/lvp_icd*.json");
@@ -50,7 +54,7 @@ TEST_F(Drivers, RenderTheSamePicture) {
 
     const Layers expected = renderWith(lavapipe, "llvmpipe");
     const Layers found = renderWith(swiftShader, "SwiftShader");
-    EXPECT_EQ(expected.size(), 11u);
+    EXPECT_EQ(expected.size(), 10u);
     ASSERT_EQ(expected.size(), found.size());
     for (const auto& [layer, xs] : expected) {
         const auto& ys = found.at(layer);
@@ -63,10 +67,12 @@ TEST_F(Drivers, RenderTheSamePicture) {
             squares += double{xs[i]} * xs[i];
             squaredDifferences += d * d;
         }
-        fmt::print("{:9} mean {:.6f}, on SwiftShader off by {:+.1e} of that; root of squares off by {:.1e}\n", layer,
-                   scale / double(xs.size()), difference / scale, std::sqrt(squaredDifferences / squares));
+        const double meanOff = difference / scale, rootOff = std::sqrt(squaredDifferences / squares);
+        fmt::print("{:9} mean {:.6f}, on SwiftShader off by {:+.1e} of that; root of mean squares by {:.1e}\n", layer,
+                   scale / double(xs.size()), meanOff, rootOff);
         EXPECT_GT(scale, 0) << layer;
-        EXPECT_LE(std::abs(difference), tolerance * scale) << layer;
+        EXPECT_LE(std::abs(meanOff), meanTolerance) << layer;
+        EXPECT_LE(rootOff, rootTolerance) << layer;
     }
 }
 
