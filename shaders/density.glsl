@@ -12,12 +12,12 @@ float densityWeight(uint kernel, float x2) {
 
 // Squared distance of a photon that counts for a query, or infinity. It counts if it is nearer than the radius, arrived on
 // the same side, and lies near the tangent plane: within a tenth of the radius, so that curved surfaces keep their photons.
-float photonDistance2(Photon photon, Query query, float radius) {
-    vec3 d = photon.position - query.position;
+float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
+    vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
     float distance2 = dot(d, d);
     if (distance2 >= radius * radius) return INFINITY;
     bool near = abs(dot(d, query.normal)) <= 0.1 * radius;
-    return near && dot(unpackUnit(photon.normal), query.normal) > 0.5 ? distance2 : INFINITY;
+    return near && dot(unpackUnit(PhotonPtr(map.photons).at[i].normal), query.normal) > 0.5 ? distance2 : INFINITY;
 }
 
 // Sum of the photons' colours under the kernel, per area of the disc.
@@ -27,9 +27,9 @@ vec3 estimateWithin(PhotonMap map, Query query, float radius) {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            Photon photon = PhotonPtr(map.photons).at[i];
-            float distance2 = photonDistance2(photon, query, radius);
-            if (distance2 < INFINITY) sum += photon.color * densityWeight(densityKernel, distance2 / (radius * radius));
+            float distance2 = photonDistance2(map, i, query, radius);
+            if (distance2 < INFINITY)
+                sum += PhotonPtr(map.photons).at[i].color * densityWeight(densityKernel, distance2 / (radius * radius));
         }
     }
     return sum / (PI * radius * radius);
@@ -44,7 +44,7 @@ uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            float distance2 = photonDistance2(PhotonPtr(map.photons).at[i], query, map.radius);
+            float distance2 = photonDistance2(map, i, query, map.radius);
             if (distance2 < low) below++;
             else if (distance2 < high) bins[min(uint((distance2 - low) / (high - low) * float(BINS)), BINS - 1u)]++;
         }
@@ -59,7 +59,7 @@ float farthestBelow(PhotonMap map, Query query, float high) {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            float distance2 = photonDistance2(PhotonPtr(map.photons).at[i], query, map.radius);
+            float distance2 = photonDistance2(map, i, query, map.radius);
             if (distance2 < high) farthest = max(farthest, distance2);
         }
     }

@@ -250,7 +250,7 @@ TEST_F(OutputTest, StatisticsHaveTheContractsKeys) {
     const auto json = nlohmann::json::parse(contentOf(folder / "s.json"));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    ASSERT_THAT(keys, ElementsAre("device", "features", "left_out", "memory", "nonfinite", "passes", "photons", "rays",
+    ASSERT_THAT(keys, ElementsAre("device", "features", "left_out", "memory", "nonfinite", "passes", "photons", "radius", "rays",
                                   "seconds", "seed", "stages"));
     for (const char* key : {"total", "setup", "render"}) EXPECT_TRUE(json["seconds"][key].is_number()) << key;
     for (const char* map : {"global", "caustic"})

@@ -26,7 +26,7 @@ struct MapStages {
 
 /// How many paths are under way at a time; the picture does not depend on it.
 struct WaveSizes {
-    uint photons = 1u << 16;
+    uint photons = 1u << 17;
     uint camera = 1u << 16; // small enough that the state of the paths stays in a CPU's cache
 };
 
