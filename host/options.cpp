@@ -75,9 +75,9 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
     count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
     count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
           options.causticPhotons);
-    radius("--radius", "first gather radius, world units (default: by the size of the scene)", options.radius);
+    radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
     radius("--caustic-radius", "the same for caustics", options.causticRadius);
-    count("--nearest", fmt::format("gather the N nearest within the radius; 0: all (default {})", defaults.nearest),
+    count("--nearest", fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
           options.nearest);
     parser.add("--alpha", "A", fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
                [&](auto& name, auto& value) { options.alpha = alphaOf(name, value); });

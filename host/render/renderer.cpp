@@ -21,8 +21,8 @@ static bool needsCaustic(const Settings& settings, const Features& has) {
 
 // Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the noise
 // of few photons averages out; caustics are looked at directly.
-const float globalPhotonsPerDisc = 12;
-const float causticPhotonsPerDisc = 6;
+const float globalPhotonsPerDisc = 20;
+const float causticPhotonsPerDisc = 10;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
     : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings.size),

@@ -10,9 +10,9 @@ struct Settings {
     uint passes = 16;                    //
     uint photons = 200'000;              // emitted into the global map per pass
     uint causticPhotons = 100'000;       // aimed at specular shapes per pass
-    std::optional<float> radius;         // of the global gather, world units; by the size of the scene if absent
-    std::optional<float> causticRadius;  // likewise of the caustic gather
-    uint nearest = 0;                    // gather the k nearest photons within the radius; 0: all within it
+    std::optional<float> radius;         // of the first global gather, world units; measured if absent
+    std::optional<float> causticRadius;  // likewise of the caustic gather, by region
+    uint nearest = 0;                    // first radius: that of the k nearest photons, `radius` at most; 0: not so
     float alpha = 2.0f / 3;              // how fast radii shrink from pass to pass; 1: not at all
     uint kernel = KERNEL_CONSTANT;       // KERNEL_...
     bool schlick = false;                // Schlick's Fresnel in place of the exact one
