@@ -15,6 +15,7 @@ const Words KERNELS{{"constant", KERNEL_CONSTANT},
                     {"cone", KERNEL_CONE},
                     {"gauss", KERNEL_GAUSS},
                     {"epanechnikov", KERNEL_EPANECHNIKOV}};
+const Words PROGRAMS{{"scene", 0}, {"all", 1}};
 const Words FRESNELS{{"exact", 0}, {"schlick", 1}};
 
 void addDevice(Parser& parser, Options& options) {
@@ -134,6 +135,8 @@ Options parseRender(std::span<const std::string> arguments) {
     addImage(parser, options, defaults);
     addPhotons(parser, options, defaults);
     parser.group("Machine");
+    parser.words("--features", PROGRAMS, "compile kernels for this scene, or with everything switched on (default scene)",
+                 [&](uint value) { options.allFeatures = value; });
     addDevice(parser, options);
     parser.flag("--quiet", "no progress on stderr", options.quiet);
     parser.footer(COMMANDS);
@@ -198,6 +201,7 @@ Settings Options::override(Settings settings) const {
     set(settings.kernel, kernel);
     set(settings.schlick, schlick);
     set(settings.seed, seed);
+    set(settings.allFeatures, allFeatures);
     requirePhotonMap(*this, settings.integrator);
     return settings;
 }

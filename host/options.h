@@ -42,6 +42,7 @@ struct Options {
     std::optional<uint> kernel;
     std::optional<bool> schlick;
     std::optional<uint> seed;
+    std::optional<bool> allFeatures;
 
     /// A scene's settings with the command line's over them. Throws InputError if --map or --show meets an
     /// integrator other than photon-map.

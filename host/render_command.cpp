@@ -98,6 +98,9 @@ void Job::requireSame(const RenderFile& file) const {
     if (!lines.empty())
         throw InputError(fmt::format("{}: --resume: was rendered from another scene or with other settings; what differs (here asked for, there in the file):\n  {}",
                                      file.path.string(), fmt::join(lines, "\n  ")));
+    if (file.header.size != settings.size)
+        throw InputError(fmt::format("{}: --resume: has {}x{} pixels, its settings say {}x{}; it was changed by another program", file.path.string(),
+                                     file.header.size.x, file.header.size.y, settings.size.x, settings.size.y));
     const PassRange held = file.passes();
     const bool fits = held.begin == passes.begin && (!options.passRange || held.end <= passes.end);
     if (!fits)

@@ -22,6 +22,7 @@ float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
 
 // Sum of the photons' colours under the kernel, per area of the disc.
 vec3 estimateWithin(PhotonMap map, Query query, float radius) {
+    uint kernel = densityKernel == ANY ? map.kernel : densityKernel;
     vec3 sum = vec3(0.0);
     Cells cells = cellsAround(map, query.position, radius);
     for (uint corner = 0u; corner < 8u; corner++) {
@@ -29,7 +30,7 @@ vec3 estimateWithin(PhotonMap map, Query query, float radius) {
         for (uint i = range.x; i < range.y; i++) {
             float distance2 = photonDistance2(map, i, query, radius);
             if (distance2 < INFINITY)
-                sum += PhotonPtr(map.photons).at[i].color * densityWeight(densityKernel, distance2 / (radius * radius));
+                sum += PhotonPtr(map.photons).at[i].color * densityWeight(kernel, distance2 / (radius * radius));
         }
     }
     return sum / (PI * radius * radius);

@@ -21,7 +21,7 @@ void main() {
     vec2 choice = sample2(s, 0u);
     Light light = LightPtr(scene.lights).at[chooseLight(scene, choice.x)];
     LightPoint point = sampleLight(light, sample2(s, 1u));
-    if (light.twoSided != 0u && choice.y < 0.5) point.normal = -point.normal;
+    if (isTwoSided(light) && choice.y < 0.5) point.normal = -point.normal;
 
     // A direction, and the weight that makes up for a density other than cos / pi.
     vec3 direction;

@@ -15,7 +15,8 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
-    float radius = hasNearest != 0u ? nearestRadius(args.map, query, args.nearest) * args.map.shrink : radiusAt(args.map, query.position);
+    float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
+                                                            : radiusAt(args.map, query.position);
     vec3 irradiance = estimateWithin(args.map, query, radius) * args.map.photonFlux;
     args.samples.at[slot].layers[query.layer] += query.weight * irradiance;
 }

@@ -19,13 +19,25 @@ uint chooseLight(DeviceScene scene, float u) {
     return low;
 }
 
+bool isSphere(Light light) {
+    return hasSphereLights != 0u && ((hasRectangleLights == 0u && hasTriangleLights == 0u) || light.kind == LIGHT_SPHERE);
+}
+
+bool isTriangle(Light light) {
+    return hasTriangleLights != 0u && ((hasRectangleLights == 0u && hasSphereLights == 0u) || light.kind == LIGHT_TRIANGLE);
+}
+
+bool isTwoSided(Light light) {
+    return hasTwoSidedLights != 0u && light.twoSided != 0u;
+}
+
 // A point of a light, uniform over area.
 LightPoint sampleLight(Light light, vec2 u) {
-    if (hasSpheres != 0u && light.kind == LIGHT_SPHERE) {
+    if (isSphere(light)) {
         vec3 n = uniformSphere(u);
         return LightPoint(light.a + light.u.x * n, abs(light.a) + light.u.x, n);
     }
-    vec2 w = light.kind == LIGHT_TRIANGLE ? uniformTriangle(u) : u;
+    vec2 w = isTriangle(light) ? uniformTriangle(u) : u;
     // A shadow ray may hit a triangle of the light anywhere along it, so all components of its place count.
     vec3 magnitude = vec3(maxComponent(abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v)));
     return LightPoint(light.a + w.x * light.u + w.y * light.v, magnitude, normalize(cross(light.u, light.v)));
@@ -33,7 +45,7 @@ LightPoint sampleLight(Light light, vec2 u) {
 
 // Radiance that a light sends in direction w from where its normal is n.
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
-    return light.twoSided != 0u || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
+    return isTwoSided(light) || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
 }
 
 float luminance(vec3 color) {

@@ -22,11 +22,11 @@ float refractedCosine2(float eta, float cosI) {
 }
 
 // Fraction of light that a dielectric reflects.
-float fresnel(float eta, float cosI) {
+float fresnel(bool schlick, float eta, float cosI) {
     float cos2 = refractedCosine2(eta, cosI);
     if (cos2 <= 0.0) return 1.0;
     float cosT = sqrt(cos2);
-    return hasSchlick != 0u ? fresnelSchlick(eta, cosI, cosT) : fresnelExact(eta, cosI, cosT);
+    return schlick ? fresnelSchlick(eta, cosI, cosT) : fresnelExact(eta, cosI, cosT);
 }
 
 // Where light goes on at a specular surface.
@@ -45,10 +45,11 @@ Scattering reflectAbout(vec3 d, vec3 n, vec3 weight) {
 Scattering scatterGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
     float eta = leaving ? 1.0 / m.ior : m.ior;
     float cosI = min(1.0, -dot(d, n));
-    if (u < fresnel(eta, cosI)) return reflectAbout(d, n, vec3(1.0));
+    bool schlick = hasSchlickFresnel != 0u && (hasExactFresnel == 0u || m.schlick != 0u);
+    if (u < fresnel(schlick, eta, cosI)) return reflectAbout(d, n, vec3(1.0));
     float cosT = sqrt(max(0.0, refractedCosine2(eta, cosI)));
     vec3 direction = normalize((d + cosI * n) / eta - cosT * n);
-    return Scattering(direction, m.color, n, 1.0 / (eta * eta));
+    return Scattering(direction, hasTint != 0u ? m.color : vec3(1.0), n, 1.0 / (eta * eta));
 }
 
 Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {

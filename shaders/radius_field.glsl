@@ -7,7 +7,7 @@ uint fieldSlot(ivec3 cell, uint mask) {
 
 // Interpolated between the middles of the eight cells around a point, of those that have a value. Elsewhere the map's radius.
 float radiusAt(PhotonMap map, vec3 position) {
-    if (map.fieldMask == 0u) return map.radius;
+    if (hasRadiusField == 0u || map.fieldMask == 0u) return map.radius;
     vec3 place = clamp(position * map.fieldPerUnit, -1.0e9, 1.0e9) - 0.5;
     ivec3 first = ivec3(floor(place));
     vec3 part = place - floor(place);

@@ -15,6 +15,14 @@
 
 ARGS(ShadeArgs)
 
+uint chosen() {
+    return integrator == ANY ? args.integrator : integrator;
+}
+
+bool showsCaustics() {
+    return hasCausticMap != 0u && args.caustics != 0u;
+}
+
 // A pixel's seed for the dimensions of this bounce: four pairs each, after that of the place in the pixel.
 vec2 bounceSample(Sampler s, uint pair) {
     return sample2(s, 4u * args.bounce + pair + 1u);
@@ -33,7 +41,7 @@ uint layerOf(Path path, uint layer) {
 // have the direct part, and the photon integrator has the rest in its maps.
 void seeLight(uint slot, Path path, Light light, vec3 normal) {
     uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
-    if (diffuse > 0u && (integrator != INTEGRATOR_PATH || (path.flags & PATH_SPECULAR) == 0u)) return;
+    if (diffuse > 0u && (chosen() != INTEGRATOR_PATH || (path.flags & PATH_SPECULAR) == 0u)) return;
     uint layer = diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT;
     add(slot, layerOf(path, layer), path.throughput * emittedRadiance(light, normal, -path.direction));
 }
@@ -94,22 +102,22 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
     bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
     vec3 weight = path.throughput * albedo;
 
-    if (integrator == INTEGRATOR_PHOTON_MAP) {
-        askMap(slot, path, surface, normal, path.throughput / PI, args.hasCausticMap != 0u ? LAYER_CAUSTIC : LAYER_INDIRECT);
-        return 1u << (args.hasCausticMap != 0u ? QUEUE_CAUSTIC : QUEUE_GLOBAL);
+    if (chosen() == INTEGRATOR_PHOTON_MAP) {
+        askMap(slot, path, surface, normal, path.throughput / PI, showsCaustics() ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        return 1u << (showsCaustics() ? QUEUE_CAUSTIC : QUEUE_GLOBAL);
     }
-    if (integrator == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) {
+    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) {
         askMap(slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
         return 1u << QUEUE_GLOBAL;
     }
 
     uint queues = 0u;
     if (askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
-    if (integrator == INTEGRATOR_PHOTON && args.hasCausticMap != 0u) {
+    if (chosen() == INTEGRATOR_PHOTON && showsCaustics()) {
         askMap(slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
         queues |= 1u << QUEUE_CAUSTIC;
     }
-    if (integrator != INTEGRATOR_DIRECT && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    if (chosen() != INTEGRATOR_DIRECT && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }
 
@@ -127,7 +135,7 @@ uint shade(uint slot) {
         args.samples.at[slot].depth = hit.t * dot(path.direction, scene.camera.forward);
         args.samples.at[slot].covered = 1.0;
     }
-    if (surface.light != NONE && integrator != INTEGRATOR_PHOTON_MAP)
+    if (surface.light != NONE && chosen() != INTEGRATOR_PHOTON_MAP)
         seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
 
     Sampler s = pixelSampler(args.firstPixel + slot, args.pass, args.seed);

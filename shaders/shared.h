@@ -32,6 +32,8 @@ BUFFER(float)
 
 // ---- Features: a specialization constant in GLSL, a field of Features in C++ -------------------
 
+const uint ANY = 0xffffffffu; // a choice that is made while the kernel runs
+
 const uint INTEGRATOR_PHOTON = 0u;
 const uint INTEGRATOR_PATH = 1u;
 const uint INTEGRATOR_DIRECT = 2u;
@@ -42,19 +44,28 @@ const uint KERNEL_CONE = 1u;
 const uint KERNEL_GAUSS = 2u;
 const uint KERNEL_EPANECHNIKOV = 3u;
 
-// id, name, value when nothing is known of the scene
+// id, name, value when nothing is known of the scene: the general program
 #define FEATURES(X)                                                                                                    \
     X(0, hasTriangles, 1)                                                                                              \
     X(1, hasSpheres, 1)                                                                                                \
     X(2, hasSmoothNormals, 1)                                                                                          \
     X(3, hasMirror, 1)                                                                                                 \
     X(4, hasGlass, 1)                                                                                                  \
-    X(5, hasManyLights, 1)                                                                                             \
-    X(6, hasSchlick, 0)                                                                                                \
-    X(7, stackSize, 64)                                                                                                \
-    X(8, integrator, INTEGRATOR_PHOTON)                                                                                \
-    X(9, densityKernel, KERNEL_CONSTANT)                                                                               \
-    X(10, hasNearest, 0)
+    X(5, hasTint, 1)                                                                                                   \
+    X(6, hasExactFresnel, 1)                                                                                           \
+    X(7, hasSchlickFresnel, 1)                                                                                         \
+    X(8, hasManyLights, 1)                                                                                             \
+    X(9, hasRectangleLights, 1)                                                                                        \
+    X(10, hasTriangleLights, 1)                                                                                        \
+    X(11, hasSphereLights, 1)                                                                                          \
+    X(12, hasTwoSidedLights, 1)                                                                                        \
+    X(13, hasGlobalMap, 1)                                                                                             \
+    X(14, hasCausticMap, 1)                                                                                            \
+    X(15, hasRadiusField, 1)                                                                                           \
+    X(16, hasNearest, 1)                                                                                               \
+    X(17, densityKernel, ANY)                                                                                          \
+    X(18, integrator, ANY)                                                                                             \
+    X(19, stackSize, 64)
 
 #ifdef __cplusplus
 struct Features {
@@ -127,7 +138,8 @@ const uint MATERIAL_GLASS = 2u;   // smooth dielectric interface, its inside aga
 struct Material {
     uint kind;
     vec3 color; // albedo, reflectance, or factor at each refraction, within [0, 1]
-    float ior;  // glass: index inside / index outside
+    float ior;    // glass: index inside / index outside
+    uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
 };
 BUFFER(Material)
 
@@ -380,10 +392,12 @@ struct PhotonMap {
     float photonFlux; // W per photon emitted
     float fieldPerUnit;
     uint fieldMask; // 0 if the radius is the same everywhere
+    uint kernel;    // KERNEL_...
+    uint nearest;   // the radius is the distance of the k-th nearest; 0: not so
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PhotonMap) == 3 * 8 + 8 * 4, "no padding, as GLSL has none");
+static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");
 #endif
 const uint MOST_LEVELS = 4u;
 const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
@@ -488,9 +502,10 @@ struct ShadeArgs {
     uint pass;
     uint seed;
     uint bounce;
-    uint hasCausticMap; // photon-map integrator: show the caustic map
+    uint caustics; // ask the caustic map; photon-map integrator: it, and not the global one
     float nearDistance; // a gather ray shorter than this goes on
     float pixelAngle;   // width of a pixel over its distance
+    uint integrator;    // INTEGRATOR_...
 };
 
 struct ShadowArgs {
@@ -507,7 +522,6 @@ struct GatherArgs {
     PTR(Sample) samples;
     PTR(Queue) queue;
     PTR(uint) list;
-    uint nearest;
 };
 
 struct FilmArgs {

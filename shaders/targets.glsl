@@ -34,6 +34,8 @@ vec3 sampleTarget(Target target, LightPoint point, vec2 u) {
 // Chooses a target in proportion to its solid angle and a direction within it. The weight is the cosine law over the
 // density of the mixture, so a direction covered by several targets counts once; 0 if it is below the horizon.
 float aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice, out vec3 direction) {
+    direction = point.normal;
+    if (scene.targetCount == 0u) return 0.0;
     float total = 0.0;
     for (uint i = 0u; i < scene.targetCount; i++) total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
     uint chosen = 0u;

@@ -23,8 +23,10 @@ double schlick(double eta, double cosI) {
     return r + (1 - r) * std::pow(1 - (eta > 1 ? cosI : std::sqrt(1 - sin2)), 5);
 }
 
+Features fresnelFeatures(uint schlick) { return {.hasExactFresnel = 1 - schlick, .hasSchlickFresnel = schlick}; }
+
 float reflectance(double eta, double cosI, uint hasSchlick = 0) {
-    return map<float>("fresnel_reflectance", std::vector{vec2{eta, cosI}}, {.hasSchlick = hasSchlick})[0];
+    return map<float>("fresnel_reflectance", std::vector{vec2{eta, cosI}}, fresnelFeatures(hasSchlick))[0];
 }
 
 double cosineOf(double degrees) {
@@ -66,7 +68,7 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
     std::vector<vec2> xs;
     for (int i = 0; i < 100'000; i++) xs.push_back({std::exp2(random.between(-1.5f, 1.5f)), random.unit()});
     for (const uint hasSchlick : {0u, 1u}) {
-        const auto ys = map<float>("fresnel_reflectance", xs, {.hasSchlick = hasSchlick});
+        const auto ys = map<float>("fresnel_reflectance", xs, fresnelFeatures(hasSchlick));
         for (std::size_t i = 0; i < xs.size(); i++) {
             const double eta = xs[i].x, cosI = xs[i].y, cos2 = 1 - (1 - cosI * cosI) / (eta * eta);
             // The derivative is infinite at the critical angle: a rounding of 1e-7 there becomes its square root.
@@ -78,7 +80,7 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
 
 TEST(Fresnel, SchlickDeviatesAsMuchAsItShould) {
     const auto xs = angles(1.5, 1 << 16);
-    const auto exact = map<float>("fresnel_reflectance", xs), approximate = map<float>("fresnel_reflectance", xs, {.hasSchlick = 1});
+    const auto exact = map<float>("fresnel_reflectance", xs), approximate = map<float>("fresnel_reflectance", xs, fresnelFeatures(1));
     double absolute = 0, relative = 0;
     for (std::size_t i = 0; i < xs.size(); i++) {
         absolute = std::max(absolute, std::abs(double{approximate[i]} - exact[i]));
@@ -95,8 +97,8 @@ TEST(Fresnel, IsTheSameFromBothSides) {
         out.push_back({1 / x.x, std::sqrt(1 - (1 - x.y * x.y) / (x.x * x.x))});
     }
     for (const uint hasSchlick : {0u, 1u}) {
-        const auto one = map<float>("fresnel_reflectance", in, {.hasSchlick = hasSchlick});
-        const auto other = map<float>("fresnel_reflectance", out, {.hasSchlick = hasSchlick});
+        const auto one = map<float>("fresnel_reflectance", in, fresnelFeatures(hasSchlick));
+        const auto other = map<float>("fresnel_reflectance", out, fresnelFeatures(hasSchlick));
         for (std::size_t i = 0; i < in.size(); i++) ASSERT_NEAR(one[i], other[i], 1e-5);
     }
 }

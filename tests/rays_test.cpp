@@ -22,7 +22,7 @@ constexpr uint largestCount = rayCount / 20; // of differences; rays aimed at ed
 class Device {
 public:
     explicit Device(const Scene& scene)
-        : uploaded(gpu, scene, {16, 16}), trace(gpu, "trace", sceneFeatures(scene, scene.settings)),
+        : uploaded(gpu, scene, Settings{.size = {16, 16}}), trace(gpu, "trace", sceneFeatures(scene, scene.settings)),
           shadow(gpu, "shadow", sceneFeatures(scene, scene.settings)) {}
 
     std::vector<Hit> closest(std::span<const TestRay> rays) {

@@ -106,6 +106,12 @@ TEST_F(Resume, RefusesOtherSettingsWithWhatDiffers) {
     EXPECT_THAT(refusal(box + "--pass-range 1:6 --resume -o x.exr"), AllOf(HasSubstr("passes 0 to 2"), HasSubstr("begins with pass 1")));
     EXPECT_TRUE(bytesOf(folder / "x.exr") == before);
 
+    Image cropped = readExr(folder / "x.exr");
+    cropped.size.y = 8;
+    for (Channel& channel : cropped.channels) channel.values.resize(24 * 8);
+    writeExr(folder / "cropped.exr", cropped);
+    EXPECT_THAT(refusal(box + "--passes 6 --resume -o cropped.exr"), AllOf(HasSubstr("cropped.exr"), HasSubstr("24x8")));
+
     // What a scene says of itself and how many passes it wants may change, what it shows may not.
     json text = json::parse(bytesOf(scene("box")));
     text["about"] = "another text";

@@ -24,7 +24,7 @@ inline Primitive sphere(vec3 center, float radius) { return {center, vec3{radius
 
 /// A scene whose arrays kernels can read.
 struct TestScene : UploadedScene {
-    explicit TestScene(const Scene& scene) : UploadedScene(testGpu(), scene, uvec2{1, 1}) {}
+    explicit TestScene(const Scene& scene) : UploadedScene(testGpu(), scene, Settings{.size = {1, 1}}) {}
 
     MapContext context() const { return {.scene = address}; }
 };

@@ -233,7 +233,13 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     EXPECT_EQ(features.hasGlass, 0u);
     EXPECT_EQ(features.hasSmoothNormals, 0u);
     EXPECT_EQ(features.hasManyLights, 0u);
-    EXPECT_EQ(features.hasSchlick, 1u);
+    EXPECT_EQ(features.hasExactFresnel, 0u);
+    EXPECT_EQ(features.hasSchlickFresnel, 0u); // no glass
+    EXPECT_EQ(features.hasCausticMap, 0u);
+    EXPECT_EQ(features.hasGlobalMap, 1u);
+    EXPECT_EQ(features.hasRectangleLights, 1u);
+    EXPECT_EQ(features.hasSphereLights, 0u);
+    EXPECT_EQ(features.hasTwoSidedLights, 0u);
     EXPECT_EQ(features.hasNearest, 1u);
     EXPECT_EQ(features.densityKernel, KERNEL_CONE);
     EXPECT_EQ(features.stackSize, plain.stackSize);
@@ -243,7 +249,9 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     specular["shapes"][0]["material"] = "water";
     features = sceneFeatures(loadJson(specular), Settings{});
     EXPECT_EQ(features.hasGlass, 1u);
-    EXPECT_EQ(features.hasSchlick, 0u);
+    EXPECT_EQ(features.hasExactFresnel, 1u);
+    EXPECT_EQ(features.hasSchlickFresnel, 0u);
+    EXPECT_EQ(features.hasCausticMap, 1u);
 }
 
 TEST(Scene, PinholeCameraSpansTheFieldOfView) {

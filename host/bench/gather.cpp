@@ -31,11 +31,11 @@ public:
           queries(gpu, "bench queries", gathers.queries), samples(gpu, "bench samples", gathers.queries.size()),
           all(gpu, gathers.queries.size()), grid(gpu, "bench photons"),
           map(grid.build(photons, static_cast<uint>(photons.size()), gathers.radius, 1)),
-          gather(gpu, "gather", {.densityKernel = KERNEL_CONSTANT, .hasNearest = 0}) {}
+          gather(gpu, "gather", {.hasRadiusField = 0, .hasNearest = 0, .densityKernel = KERNEL_CONSTANT}) {}
 
     void run() {
         Recording recording(gpu);
-        recording.run(gather, queries.size(), {map, queries, samples, all.queue, all.list, 0});
+        recording.run(gather, queries.size(), {map, queries, samples, all.queue, all.list});
         recording.submit();
     }
 

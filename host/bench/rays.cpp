@@ -59,7 +59,7 @@ Measurement measureShadow(Gpu& gpu, const Scene& scene, const UploadedScene& upl
 std::vector<Measurement> measureRays(Gpu& gpu, const Scene& scene) {
     const EmbreeScene embree(scene);
     const BenchRays rays = makeRays(scene, embree);
-    const UploadedScene uploaded(gpu, scene, scene.settings.size);
+    const UploadedScene uploaded(gpu, scene, scene.settings);
     return {measureClosest(gpu, scene, uploaded, embree, "primary_rays", rays.primary),
             measureClosest(gpu, scene, uploaded, embree, "bounce_rays", rays.bounce),
             measureShadow(gpu, scene, uploaded, embree, rays.shadow)};

@@ -24,15 +24,15 @@ void CameraPaths::bounce(Recording& recording, uint pass, uint first, uint index
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
                   {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, first, pass,
-                   settings.seed, index, hasCausticMap, maps.nearDistance, pixelAngle});
+                   settings.seed, index, hasCausticMap, maps.nearDistance, pixelAngle, settings.integrator});
     compaction.compact(recording);
 
     const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
     recording.run(shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list});
     if (maps.caustic.cells.address)
-        recording.run(gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, settings.nearest});
+        recording.run(gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list});
     if (maps.global.cells.address)
-        recording.run(gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, settings.nearest});
+        recording.run(gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list});
 }
 
 RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {

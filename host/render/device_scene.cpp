@@ -9,10 +9,15 @@ template <class T> static Buffer<T> uploaded(Gpu& gpu, const char* name, const s
     return Buffer<T>(gpu, name, std::span<const T>(data));
 }
 
-UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, uvec2 size)
+static std::vector<Material> withFresnel(std::vector<Material> materials, bool schlick) {
+    for (Material& material : materials) material.schlick = schlick;
+    return materials;
+}
+
+UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings)
     : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
       primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
-      materials(uploaded(gpu, "scene materials", scene.materials)), lights(uploaded(gpu, "scene lights", scene.lights)),
+      materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
       lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)) {
     const DeviceScene device{.nodes = nodes,
                              .leaves = leaves,
@@ -25,7 +30,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, uvec2 size)
                              .triangleCount = scene.triangleCount,
                              .lightCount = static_cast<uint>(scene.lights.size()),
                              .targetCount = static_cast<uint>(scene.targets.size()),
-                             .camera = pinholeCamera(scene.view, size)};
+                             .camera = pinholeCamera(scene.view, settings.size)};
     address = Buffer<DeviceScene>(gpu, "scene", std::span(&device, 1));
 }
 

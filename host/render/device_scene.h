@@ -9,7 +9,7 @@ namespace vkpm {
 class UploadedScene {
 public:
     /// The camera is that of the scene's view for a film of `size` pixels.
-    UploadedScene(Gpu& gpu, const Scene& scene, uvec2 size);
+    UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings);
 
     Buffer<DeviceScene> address;
 

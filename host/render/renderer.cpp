@@ -10,34 +10,24 @@ const uint pilotPass = NONE; // no pass of a render
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
 
-static bool needsGlobal(const Settings& settings) {
-    return settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && !settings.showCaustic);
-}
-
-static bool needsCaustic(const Settings& settings, const Features& has) {
-    const bool wanted = settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic);
-    return wanted && (has.hasMirror || has.hasGlass);
-}
-
 // Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the noise
 // of few photons averages out; caustics are looked at directly.
 const float globalPhotonsPerDisc = 20;
 const float causticPhotonsPerDisc = 10;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
-    : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings.size),
+    : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      camera(gpu, scene, sceneHas, settings, needsCaustic(settings, sceneHas), waves.camera), film(gpu, settings.size) {
+      camera(gpu, scene, sceneHas, settings, sceneHas.hasCausticMap != 0, waves.camera), film(gpu, settings.size) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
         stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
                                  flux / float(photons), radius.value_or(widestRadius(input, photons, settings.nearest))});
         if (!radius && settings.nearest == 0 && !settings.showPoints) measureRadii(*stages, mostLevels(input, stages->radius), perDisc, kind == MapKind::global);
     };
-    if (needsGlobal(settings) && settings.photons > 0) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
+    if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     else absent.push_back(settings.photons ? "global map: the integrator does not use it" : "global map: no photons asked for");
-    if (needsCaustic(settings, sceneHas) && settings.causticPhotons > 0)
-        construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
+    if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
     else if (!sceneHas.hasMirror && !sceneHas.hasGlass) absent.push_back("caustic map: no specular surface");
     else absent.push_back(settings.causticPhotons ? "caustic map: the integrator does not use it" : "caustic map: no photons asked for");
 }
@@ -63,6 +53,8 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 0;
     stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels);
     stages->map.shrink = factor;
+    stages->map.kernel = settings.kernel;
+    stages->map.nearest = settings.nearest;
     if (stages->field) stages->field->apply(stages->map);
     stages->ledger += ledger;
 }

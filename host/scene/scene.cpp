@@ -15,23 +15,45 @@ Camera pinholeCamera(const View& view, uvec2 size) {
     return {view.origin, vec3{forward}, vec3{right * (tangent * aspect)}, vec3{up * tangent}};
 }
 
+/// What settings alone decide; the same for the general program.
+static void chooseMaps(Features& features, const Settings& settings) {
+    const bool photon = settings.integrator == INTEGRATOR_PHOTON;
+    const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
+    features.hasGlobalMap &= (photon || (map && !settings.showCaustic)) && settings.photons > 0;
+    features.hasCausticMap &= (photon || (map && settings.showCaustic)) && settings.causticPhotons > 0;
+}
+
 Features sceneFeatures(const Scene& scene, const Settings& settings) {
-    const auto anyOf = [&](uint kind) {
-        return std::ranges::any_of(scene.primitives,
-                                   [&](const Primitive& p) { return scene.materials[p.material].kind == kind; });
-    };
     Features features;
+    if (settings.allFeatures) {
+        features.stackSize = std::max(features.stackSize, scene.stackSize);
+        chooseMaps(features, settings);
+        return features;
+    }
+    const auto anyMaterial = [&](auto&& is) {
+        return std::ranges::any_of(scene.primitives, [&](const Primitive& p) { return is(scene.materials[p.material]); });
+    };
+    const auto anyLight = [&](auto&& is) { return std::ranges::any_of(scene.lights, is); };
     features.hasTriangles = scene.triangleCount > 0;
     features.hasSpheres = scene.primitives.size() > scene.triangleCount;
     features.hasSmoothNormals = !scene.normals.empty();
-    features.hasMirror = anyOf(MATERIAL_MIRROR);
-    features.hasGlass = anyOf(MATERIAL_GLASS);
+    features.hasMirror = anyMaterial([](const Material& m) { return m.kind == MATERIAL_MIRROR; });
+    features.hasGlass = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS; });
+    features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
+    features.hasExactFresnel = features.hasGlass && !settings.schlick;
+    features.hasSchlickFresnel = features.hasGlass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;
-    features.hasSchlick = settings.schlick;
-    features.stackSize = scene.stackSize;
-    features.integrator = settings.integrator;
-    features.densityKernel = settings.kernel;
+    features.hasRectangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_RECTANGLE; });
+    features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
+    features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
+    features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
+    features.hasCausticMap = features.hasMirror || features.hasGlass;
+    chooseMaps(features, settings);
     features.hasNearest = settings.nearest > 0;
+    features.hasRadiusField = features.hasCausticMap && !settings.causticRadius && settings.nearest == 0;
+    features.densityKernel = settings.kernel;
+    features.integrator = settings.integrator;
+    features.stackSize = scene.stackSize;
     return features;
 }
 

@@ -6,4 +6,4 @@
 #include "surface.glsl"
 #include "material.glsl"
 
-MAP(vec2, float, fresnel(x.x, x.y))
+MAP(vec2, float, fresnel(hasExactFresnel == 0u, x.x, x.y))

@@ -1,0 +1,131 @@
+/// The program that is compiled for a scene renders the bits of the general one: on the shipped scenes and on random ones.
+#include "judge.h"
+#include "render_support.h"
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+using nlohmann::json;
+
+std::vector<Pixel> renderWith(const Scene& scene, Settings settings, bool allFeatures) {
+    settings.allFeatures = allFeatures;
+    return renderPasses(scene, settings, 2).pixels;
+}
+
+// Returns the mean of beauty.
+double expectSameBits(const Scene& scene, const Settings& settings, const std::string& what) {
+    const std::vector<Pixel> special = renderWith(scene, settings, false);
+    const std::vector<Pixel> general = renderWith(scene, settings, true);
+    EXPECT_EQ(special.size(), general.size());
+    EXPECT_EQ(std::memcmp(special.data(), general.data(), special.size() * sizeof(Pixel)), 0) << what;
+    return layerMean(special, LAYER_COUNT);
+}
+
+TEST(Features, ShippedScenesRenderTheSameBits) {
+    for (const char* name : {"box", "diffuse_box", "ring", "glass", "pool"}) {
+        const Scene scene = shippedScene(name);
+        Settings settings = scene.settings;
+        settings.size = {24, 16};
+        settings.photons = settings.causticPhotons = 1000;
+        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_DIRECT, INTEGRATOR_PHOTON_MAP}) {
+            settings.integrator = integrator;
+            expectSameBits(scene, settings, name);
+        }
+    }
+}
+
+// A scene of a few shapes in a room or in the open, drawn from everything that a scene file can say.
+class Generator {
+public:
+    explicit Generator(uint seed) : random(seed) {}
+
+    json scene() {
+        materials = {{"white", {{"type", "diffuse"}, {"albedo", color(0, 1)}}}};
+        if (maybe()) materials["grey"] = {{"type", "diffuse"}, {"albedo", random.unit()}};
+        if (maybe()) materials["steel"] = {{"type", "mirror"}, {"reflectance", color(0.5f, 1)}};
+        if (maybe()) materials["glass"] = {{"type", "glass"}, {"ior", random.between(1.0f, 2.5f)}};
+        if (materials.contains("glass") && maybe()) materials["glass"]["tint"] = color(0, 1);
+        shapes = json::array();
+        const bool onlySpheres = random.bits() % 6 == 0;
+        if (!onlySpheres && maybe()) room();
+        for (uint i = 0, n = 1 + random.bits() % 4; i < n; i++) shapes.push_back(onlySpheres || maybe() ? sphere() : maybe() ? rectangle() : mesh());
+        for (uint i = 0, n = 1 + random.bits() % 3; i < n; i++) shapes.push_back(light(onlySpheres));
+        return {{"camera", {{"origin", {random.between(-0.2f, 0.2f), 0.1, 0.9}}, {"target", {0, 0, 0}}, {"fieldOfView", random.between(30, 100)}}},
+                {"materials", materials},
+                {"shapes", shapes}};
+    }
+
+    Settings settings() {
+        Settings s;
+        s.size = {12, 8};
+        s.photons = random.bits() % 8 ? 300 : 0;
+        s.causticPhotons = random.bits() % 8 ? 300 : 0;
+        s.integrator = random.bits() % 2 ? INTEGRATOR_PHOTON : random.bits() % 4;
+        s.kernel = random.bits() % 4;
+        s.schlick = maybe();
+        s.nearest = random.bits() % 4 ? 0 : 1 + random.bits() % 20;
+        s.showCaustic = maybe();
+        s.showPoints = s.integrator == INTEGRATOR_PHOTON_MAP && maybe();
+        s.seed = random.bits();
+        if (maybe()) s.radius = random.between(0.01f, 0.3f);
+        if (maybe()) s.causticRadius = random.between(0.01f, 0.3f);
+        return s;
+    }
+
+private:
+    bool maybe() { return random.bits() % 2 == 0; }
+    json color(float low, float high) { return {random.between(low, high), random.between(low, high), random.between(low, high)}; }
+    json vector(float half) { return {random.between(-half, half), random.between(-half, half), random.between(-half, half)}; }
+    std::string material() {
+        auto chosen = materials.begin();
+        std::advance(chosen, random.bits() % materials.size());
+        return chosen.key();
+    }
+
+    json sphere() { return {{"type", "sphere"}, {"center", vector(0.6f)}, {"radius", random.between(0.05f, 0.4f)}, {"material", material()}}; }
+    json rectangle() {
+        return {{"type", "rectangle"}, {"corner", vector(0.8f)}, {"edges", {{random.between(0.2f, 1), random.between(-0.3f, 0.3f), 0}, {0, random.between(-0.3f, 0.3f), -0.5}}}, {"material", material()}};
+    }
+    json mesh() {
+        return {{"type", "mesh"}, {"file", std::string(VKPM_SCENES) + (maybe() ? "/ring.obj" : "/knot.obj")}, {"material", material()}, {"transform", {{{"scale", 0.1}}, {{"translate", vector(0.5f)}}}}};
+    }
+    json light(bool onlySpheres) {
+        json shape = onlySpheres || maybe() ? sphere() : rectangle();
+        shape.erase("material");
+        shape["emission"] = color(0, 20);
+        if (maybe()) shape["material"] = "white";
+        if (maybe()) shape["twoSided"] = true;
+        return shape;
+    }
+    void room() {
+        for (int axis = 0; axis < 3; axis++)
+            for (const int side : {-1, 1}) {
+                json corner{-1, -1, -1}, u{0, 0, 0}, v{0, 0, 0};
+                corner[axis] = side;
+                u[(axis + 1) % 3] = 2;
+                v[(axis + 2) % 3] = 2;
+                shapes.push_back({{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", material()}});
+            }
+    }
+
+    Random random;
+    json materials;
+    json shapes;
+};
+
+TEST(Features, RandomScenesRenderTheSameBits) {
+    double light = 0;
+    for (uint seed = 0; seed < 240; seed++) {
+        Generator generator(seed);
+        const json text = generator.scene();
+        const Settings settings = generator.settings();
+        const Scene scene = loadJson(text);
+        light += expectSameBits(scene, settings, "seed " + std::to_string(seed) + ": " + text.dump());
+    }
+    EXPECT_GT(light, 1); // they are not all black
+}
+
+} // namespace
+} // namespace vkpm
