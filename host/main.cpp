@@ -14,6 +14,7 @@ static int run(const Options& options) {
     case Command::Print: std::fputs(options.text.c_str(), stdout); return 0;
     case Command::Devices: return showDevices(options);
     case Command::Bench: return bench(options);
+    case Command::Plan: return plan(options);
     case Command::Merge: return merge(options);
     case Command::Render: return render(options);
     }

@@ -23,6 +23,12 @@ void addDevice(Parser& parser, Options& options) {
                [&](auto&, auto& value) { options.device = value; });
 }
 
+void addMachine(Parser& parser, Options& options) {
+    parser.words("--features", PROGRAMS, "compile kernels for this scene, or with everything switched on (default scene)",
+                 [&](uint value) { options.allFeatures = value; });
+    addDevice(parser, options);
+}
+
 void addFiles(Parser& parser, Options& options) {
     parser.group("Files");
     parser.add("--scene", "FILE", "scene to render (JSON); required",
@@ -89,6 +95,7 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
 
 const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
   render                         render without a window; may be left out
+  plan --scene FILE [--json]     say what a scene needs, what is left out and why, memory by buffer
   merge OUT.exr PART.exr...      put parts that --pass-range rendered together
   devices [--json]               list the Vulkan devices and what each lacks
   bench [--json] [--scene FILE] [--device INDEX|NAME]
@@ -135,15 +142,31 @@ Options parseRender(std::span<const std::string> arguments) {
     addImage(parser, options, defaults);
     addPhotons(parser, options, defaults);
     parser.group("Machine");
-    parser.words("--features", PROGRAMS, "compile kernels for this scene, or with everything switched on (default scene)",
-                 [&](uint value) { options.allFeatures = value; });
-    addDevice(parser, options);
+    addMachine(parser, options);
     parser.flag("--quiet", "no progress on stderr", options.quiet);
     parser.footer(COMMANDS);
     options.text = parser.parse(arguments);
     if (!options.text.empty()) return options;
     requireRender(options);
     options.command = Command::Render;
+    return options;
+}
+
+Options parsePlan(std::span<const std::string> arguments) {
+    Options options;
+    const Settings defaults;
+    Parser parser("Say what a scene needs, what is left out and why, and how much memory it takes. Renders one pass.",
+                  "vkpm plan --scene FILE [options]");
+    parser.add("--scene", "FILE", "scene (JSON); required", [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.flag("--json", "as JSON", options.json);
+    addImage(parser, options, defaults);
+    addPhotons(parser, options, defaults);
+    parser.group("Machine");
+    addMachine(parser, options);
+    options.text = parser.parse(arguments);
+    if (!options.text.empty()) return options;
+    if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm plan --scene FILE");
+    options.command = Command::Plan;
     return options;
 }
 
@@ -212,13 +235,14 @@ Options parseOptions(int count, const char* const* arguments) {
     const std::span<const std::string> all(words);
     if (all[0].starts_with('-')) return parseRender(all);
     if (all[0] == "render") return parseRender(all.subspan(1));
+    if (all[0] == "plan") return parsePlan(all.subspan(1));
     if (all[0] == "merge") return parseMerge(all.subspan(1));
     if (all[0] == "devices") return parseDevices(all.subspan(1));
     if (all[0] == "bench") return parseBench(all.subspan(1));
     const bool isFile = fs::path(all[0]).has_extension();
-    throw InputError(fmt::format("found command \"{}\"; allowed: render, merge, devices, bench{}", all[0],
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, plan, merge, devices, bench{}", all[0],
                                  isFile ? "; a scene is given as --scene " + all[0]
-                                        : suggestion(all[0], {"render", "merge", "devices", "bench"})));
+                                        : suggestion(all[0], {"render", "plan", "merge", "devices", "bench"})));
 }
 
 } // namespace vkpm

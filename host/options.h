@@ -8,7 +8,7 @@
 
 namespace vkpm {
 
-enum class Command { Print, Render, Merge, Devices, Bench };
+enum class Command { Print, Render, Plan, Merge, Devices, Bench };
 
 /// What the command line asks for; what it leaves open is absent.
 struct Options {

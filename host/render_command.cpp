@@ -10,6 +10,7 @@
 #include "render/radius.h"
 #include "render/renderer.h"
 #include "render_file.h"
+#include "scene/explain.h"
 #include "scene/identity.h"
 #include "scene/settings_json.h"
 #include <chrono>
@@ -33,6 +34,14 @@ std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool 
     if (!stages->field) return GatherRadii{stages->radius, stages->radius, stages->radius, given};
     const auto radius = [&](float logarithm) { return stages->radius * std::exp2(logarithm); };
     return GatherRadii{radius(stages->field->smallest), radius(stages->field->median), radius(stages->field->greatest), given};
+}
+
+/// "hasGlass: the scene has no glass", a line for each feature that the render does without.
+std::vector<std::string> leftOut(const Features& features, const Settings& settings) {
+    std::vector<std::string> lines;
+    for (const FeatureReason& line : explainFeatures(features, settings))
+        if (!line.needed) lines.push_back(line.name + ": " + line.reason);
+    return lines;
 }
 
 /// One run of the program: a renderer with what was asked for, from the first pass to the saved file.
@@ -161,6 +170,7 @@ void Job::checkpoint() {
 void Job::save() {
     std::map<std::string, std::string> attributes = identity;
     attributes["device"] = fmt::format("{}, {}", gpu.info().name, gpu.info().driver);
+    attributes["leftOut"] = fmt::format("{}", fmt::join(leftOut(renderer.features(), settings), "; "));
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(begin));
@@ -180,7 +190,7 @@ Statistics Job::statistics() const {
     s.causticRadii = causticRadii();
     s.radiusFactor = radiusFactor(renderer.film.passes().end - 1, settings.alpha);
     s.features = renderer.features();
-    s.leftOut = renderer.leftOut();
+    s.leftOut = leftOut(renderer.features(), settings);
     s.nonfinite = nonfinite();
     s.setupSeconds = std::chrono::duration<double>(begin - start).count();
     s.renderSeconds = renderSeconds;

@@ -221,7 +221,7 @@ TEST_F(OptionsTest, RefusesUnknownWordsAndSuggestsTheNearest) {
     EXPECT_THAT(refusalOfRender({"-q"}), HasSubstr("-q: unknown"));
     EXPECT_THAT(refusal({"devices", "--scene", "box.json"}), HasSubstr("--scene: unknown"));
     EXPECT_THAT(refusal({"rendr"}), AllOf(HasSubstr("rendr"), HasSubstr("did you mean render?")));
-    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, merge, devices, bench"));
+    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, plan, merge, devices, bench"));
     EXPECT_THAT(refusal({"box.json"}), HasSubstr("--scene box.json"));
     EXPECT_THAT(refusalOfRender({"extra"}), HasSubstr("\"extra\""));
 }

@@ -90,6 +90,29 @@ TEST_F(Program, DevicesShowsAPassedAudit) {
     for (const auto& test : devices[0]["audit"]) EXPECT_TRUE(test["passed"].get<bool>()) << test;
 }
 
+TEST_F(Program, PlanSaysWhatIsLeftOutAndTheMemory) {
+    for (const char* name : {"diffuse_box", "box"}) {
+        const std::string options = "--scene " + scene(name) + " --size 64x48 --passes 7 --photons 5000 --caustic-photons 2000";
+        const Result planned = run("plan --json " + options);
+        ASSERT_EQ(planned.code, 0) << planned.output;
+        const auto plan = nlohmann::json::parse(planned.output);
+        ASSERT_EQ(run(options + " --quiet --stats s.json -o x.exr").code, 0);
+        const auto stats = nlohmann::json::parse(std::ifstream(folder / "s.json"));
+        EXPECT_NEAR(plan["memory"]["device_bytes"].get<double>() / stats["memory"]["device_bytes"].get<double>(), 1, 0.1) << name;
+
+        std::size_t without = 0;
+        for (const auto& feature : plan["features"]) {
+            EXPECT_EQ(feature["needed"].get<bool>(), stats["features"][feature["name"].get<std::string>()] != 0) << feature;
+            if (feature["needed"]) continue;
+            EXPECT_EQ(stats["left_out"][without++], feature["name"].get<std::string>() + ": " + feature["reason"].get<std::string>());
+        }
+        EXPECT_EQ(without, stats["left_out"].size());
+        for (const auto& kernel : plan["kernels"]) EXPECT_LE(kernel["instructions"], kernel["general_instructions"]) << kernel;
+        EXPECT_THAT(run("plan " + options).output, testing::AllOf(HasSubstr("Left out:"), HasSubstr("hasTint"), HasSubstr("film")));
+    }
+    EXPECT_EQ(run("plan").code, 2);
+}
+
 // Ctrl-C after some passes: exit 130, and the file holds what was rendered.
 TEST_F(Program, InterruptSavesWhatThereIs) {
     const fs::path output = folder / "box.exr";

@@ -26,10 +26,7 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSiz
         if (!radius && settings.nearest == 0 && !settings.showPoints) measureRadii(*stages, mostLevels(input, stages->radius), perDisc, kind == MapKind::global);
     };
     if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
-    else absent.push_back(settings.photons ? "global map: the integrator does not use it" : "global map: no photons asked for");
     if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
-    else if (!sceneHas.hasMirror && !sceneHas.hasGlass) absent.push_back("caustic map: no specular surface");
-    else absent.push_back(settings.causticPhotons ? "caustic map: the integrator does not use it" : "caustic map: no photons asked for");
 }
 
 void Renderer::measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius) {

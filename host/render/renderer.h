@@ -40,8 +40,6 @@ public:
 
     RayCounts rays() const { return cameraRays; }
     const Features& features() const { return sceneHas; }
-    /// Stages that this scene does not need, each with the reason.
-    const std::vector<std::string>& leftOut() const { return absent; }
     const std::optional<MapStages>& globalMap() const { return global; }
     const std::optional<MapStages>& causticMap() const { return caustic; }
 
@@ -54,7 +52,6 @@ private:
     Features sceneHas;
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
-    std::vector<std::string> absent;
     std::optional<MapStages> global;
     std::optional<MapStages> caustic;
     CameraPaths camera;
