@@ -6,7 +6,6 @@
 #include "render_file.h"
 #include "scene/identity.h"
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace vkpm {

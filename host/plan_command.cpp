@@ -11,22 +11,6 @@ namespace vkpm {
 
 using Json = nlohmann::ordered_json;
 
-/// The most runs of passes that a film holds at a time; a pass that joins the last run needs none of its own.
-static std::size_t mostRuns(uint passes) {
-    std::vector<PassRange> runs;
-    std::size_t most = 0;
-    for (uint pass = 0; pass < std::min(passes, 1u << 20); pass++) {
-        if (!runs.empty() && joins(runs.back(), {pass, pass + 1})) runs.back().end++;
-        else runs.push_back({pass, pass + 1});
-        most = std::max(most, runs.size());
-        while (runs.size() > 1 && joins(runs[runs.size() - 2], runs.back())) {
-            runs[runs.size() - 2].end = runs.back().end;
-            runs.pop_back();
-        }
-    }
-    return most;
-}
-
 static Json featuresJson(const Features& features, const Settings& settings) {
     Json list = Json::array();
     for (const FeatureReason& line : explainFeatures(features, settings))

@@ -47,8 +47,8 @@ std::vector<std::string> leftOut(const Features& features, const Settings& setti
 /// One run of the program: a renderer with what was asked for, from the first pass to the saved file.
 class Job {
 public:
-    Job(const Options& opts, const Scene& input, const Settings& set, Gpu& device)
-        : options(opts), scene(input), settings(set), gpu(device), renderer(gpu, scene, settings), log(options.log, options.resume),
+    Job(const Options& opts, const Scene& input, const Settings& set, Gpu& opened)
+        : options(opts), scene(input), settings(set), gpu(opened), device(fmt::format("{}, {}", gpu.info().name, gpu.info().driver)), renderer(gpu, scene, settings), log(options.log, options.resume),
           identity(identityOf(scene, settings)), passes(options.passRange.value_or(PassRange{0, settings.passes})) {
         if (options.seconds && !options.passes && !options.passRange) passes.end = NONE;
     }
@@ -75,6 +75,7 @@ private:
     const Scene& scene;
     const Settings& settings;
     Gpu& gpu;
+    std::string device; // as files and statistics name it
     Renderer renderer;
     EventLog log;
     std::map<std::string, std::string> identity;
@@ -121,7 +122,6 @@ void Job::resume() {
     if (!std::filesystem::exists(options.output)) return;
     const RenderFile file = openRender(options.output);
     requireSame(file);
-    const std::string device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver);
     if (file.attribute("device") != device)
         fmt::print(stderr, "vkpm: warning: {} was rendered by {}, and goes on on {}: roundings may differ\n", options.output.string(), file.attribute("device"), device);
     restore(renderer.film, file);
@@ -169,7 +169,7 @@ void Job::checkpoint() {
 
 void Job::save() {
     std::map<std::string, std::string> attributes = identity;
-    attributes["device"] = fmt::format("{}, {}", gpu.info().name, gpu.info().driver);
+    attributes["device"] = device;
     attributes["leftOut"] = fmt::format("{}", fmt::join(leftOut(renderer.features(), settings), "; "));
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
@@ -178,7 +178,7 @@ void Job::save() {
 }
 
 Statistics Job::statistics() const {
-    Statistics s{.device = fmt::format("{}, {}", gpu.info().name, gpu.info().driver), .seed = settings.seed, .passes = renderer.film.passCount()};
+    Statistics s{.device = device, .seed = settings.seed, .passes = renderer.film.passCount()};
     for (const auto& [name, time] : gpu.times) s.stages.emplace_back(name, time.seconds);
     for (const auto& [name, bytes] : gpu.memory)
         if (bytes > 0) s.buffers.emplace_back(name, bytes);

@@ -16,6 +16,11 @@ struct Result {
     std::string output; // stdout and stderr
 };
 
+inline std::string bytesOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 /// Runs the program in a folder of its own.
 class Program : public testing::Test {
 protected:
@@ -30,8 +35,7 @@ protected:
         const fs::path log = folder / "log.txt";
         const std::string command = "cd '" + folder.string() + "' && " + environment + " '" VKPM_PROGRAM "' " + arguments + " > '" + log.string() + "' 2>&1";
         const int status = std::system(command.c_str());
-        std::ifstream file(log);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytesOf(log)};
     }
 
     static std::string scene(const std::string& name) { return std::string(VKPM_SCENES) + "/" + name + ".json"; }

@@ -12,11 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string bytesOf(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST_F(Program, RendersEveryShippedSceneWithoutLossOrNonfinite) {
     for (const char* name : {"box", "diffuse_box", "ring", "glass", "pool"}) {
         const Result result = run("--scene " + scene(name) + small + "--stats stats.json --quiet");

@@ -19,11 +19,6 @@ using testing::HasSubstr;
 using testing::Not;
 using nlohmann::json;
 
-std::string bytesOf(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class Resume : public Program {
 protected:
     const std::string box = "--scene " + scene("box") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet ";

@@ -45,8 +45,8 @@ struct Statistics {
     std::uint64_t deviceBytes = 0;
     std::vector<std::pair<std::string, std::uint64_t>> buffers{}; // bytes; a name that occurs twice is summed
     Features features{};
-    std::vector<std::string> leftOut{}; // stages that this scene does not need
-    std::uint64_t nonfinite = 0;      // samples kept from the film
+    std::vector<std::string> leftOut{}; // what the render does without, and why
+    std::uint64_t nonfinite = 0;      // samples that count as black
 };
 
 /// The radii as a JSON object; null if absent.

@@ -8,8 +8,8 @@ namespace vkpm {
 const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
-CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, bool causticMap, uint wave)
-    : gpu(device), scene(uploaded), settings(set), hasCausticMap(causticMap), size(std::min(set.size.x * set.size.y, wave)),
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, uint wave)
+    : gpu(device), scene(uploaded), settings(set), hasCausticMap(features.hasCausticMap != 0), size(std::min(set.size.x * set.size.y, wave)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       shadowRays(gpu, "camera shadow rays", size), queries(gpu, "camera queries", size), eye(gpu, "eye", features),
       traceKernel(gpu, "trace", features), shade(gpu, "shade", features), shadow(gpu, "shadow", features),

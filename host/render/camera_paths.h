@@ -20,7 +20,7 @@ struct RayCounts {
 /// Traces one path per pixel for a range of pixels at a time.
 class CameraPaths {
 public:
-    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, bool hasCausticMap, uint wave);
+    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, uint wave);
 
     /// Pixels that one call of trace() may take.
     uint capacity() const { return size; }

@@ -8,7 +8,7 @@ namespace vkpm {
 /// Uploads the arrays of a scene once; kernels read them through `address`.
 class UploadedScene {
 public:
-    /// The camera is that of the scene's view for a film of `size` pixels.
+    /// The camera is that of the scene's view for the film's size; glass reflects as the settings say.
     UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings);
 
     Buffer<DeviceScene> address;

@@ -85,7 +85,6 @@ std::vector<uint> Film::develop(float exposure) {
 }
 
 std::vector<Pixel> Film::download() {
-    static_assert(sizeof(PixelSum) == PIXEL_FLOATS * sizeof(float));
     const double n = passCount();
     std::vector<Pixel> pixels;
     pixels.reserve(count);

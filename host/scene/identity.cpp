@@ -4,7 +4,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <span>
 
 namespace vkpm {
 namespace {
