@@ -44,6 +44,7 @@ static void requireAdjacent(const std::vector<RenderFile>& parts, bool part) {
 static std::map<std::string, std::string> mergedAttributes(const std::vector<RenderFile>& parts) {
     std::map<std::string, std::string> merged = parts[0].header.attributes;
     merged.erase("runs");
+    merged.erase("layers");
     std::vector<std::string> devices;
     std::uint64_t nonfinite = 0;
     double seconds = 0;
@@ -70,10 +71,15 @@ int merge(const Options& options) {
 
     Gpu gpu(options.device);
     requireSoundDriver(gpu);
-    Film film(gpu, parts[0].header.size);
+    Settings settings;
+    settings.size = parts[0].header.size;
+    settings.layers = parts[0].layers;
+    settings.exposure = std::strtof(parts[0].attribute("exposure").c_str(), nullptr);
+    Features features;
+    askFor(settings.layers, features);
+    Film film(gpu, settings.size, features);
     for (const RenderFile& part : parts) restore(film, part);
-    const float exposure = std::strtof(parts[0].attribute("exposure").c_str(), nullptr);
-    saveRender(options.output, film, parts[0].header.size, exposure, mergedAttributes(parts));
+    saveRender(options.output, film, settings, mergedAttributes(parts));
     return 0;
 }
 

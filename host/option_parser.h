@@ -89,6 +89,20 @@ inline float alphaOf(const std::string& option, const std::string& text) {
     return *value;
 }
 
+/// Bits of the layers in a list such as "direct,caustic", or of all.
+inline uint layersOf(const std::string& option, const std::string& text) {
+    if (text == "all") return allLayers;
+    uint layers = 0;
+    for (size_t begin = 0; begin <= text.size();) {
+        const size_t end = std::min(text.find(',', begin), text.size());
+        const auto found = std::ranges::find(layerNames, text.substr(begin, end - begin));
+        if (found == layerNames.end()) refuse(option, text, fmt::format("all, or names with commas between them, of {}", fmt::join(layerNames, ", ")));
+        layers |= 1u << (found - layerNames.begin());
+        begin = end + 1;
+    }
+    return layers;
+}
+
 inline PassRange passRangeOf(const std::string& option, const std::string& text) {
     const size_t colon = std::min(text.find(':'), text.size());
     const auto number = [](const std::string& digits) { return numberOf<double>(digits).value_or(-1); };

@@ -69,6 +69,8 @@ void addImage(Parser& parser, Options& options, const Settings& defaults) {
     parser.words("--fresnel", FRESNELS,
                  fmt::format("reflectance of glass (default {})", wordOf(FRESNELS, defaults.schlick)),
                  [&](uint value) { options.schlick = value; });
+    parser.add("--layers", "A,B,...", fmt::format("render only these; beauty is the sum of the lights' parts among them: {} (default all)", fmt::join(layerNames, ", ")),
+               [&](auto& name, auto& value) { options.layers = layersOf(name, value); });
 }
 
 void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
@@ -223,6 +225,7 @@ Settings Options::override(Settings settings) const {
     set(settings.alpha, alpha);
     set(settings.kernel, kernel);
     set(settings.schlick, schlick);
+    set(settings.layers, layers);
     set(settings.seed, seed);
     set(settings.allFeatures, allFeatures);
     requirePhotonMap(*this, settings.integrator);

@@ -41,6 +41,7 @@ struct Options {
     std::optional<float> alpha;
     std::optional<uint> kernel;
     std::optional<bool> schlick;
+    std::optional<uint> layers;
     std::optional<uint> seed;
     std::optional<bool> allFeatures;
 

@@ -28,8 +28,8 @@ static Json kernelsJson(const Gpu& gpu, const Features& features) {
 }
 
 /// Memory after a pass and a save, and the film's further runs.
-static Json memoryJson(const Gpu& gpu, const Settings& settings) {
-    const std::uint64_t film = std::uint64_t(settings.size.x) * settings.size.y * sizeof(PixelSum);
+static Json memoryJson(const Gpu& gpu, const Features& features, const Settings& settings) {
+    const std::uint64_t film = std::uint64_t(settings.size.x) * settings.size.y * Columns(features).SUM_COLUMNS * sizeof(float);
     const std::uint64_t more = (mostRuns(settings.passes) - 1) * film;
     Json buffers = Json::object();
     for (const auto& [name, bytes] : gpu.memory)
@@ -57,11 +57,10 @@ int plan(const Options& options) {
     requireSoundDriver(gpu);
     Renderer renderer(gpu, scene, settings);
     renderer.renderPass(0);
-    renderer.film.develop(0);
     const Json plan{{"scene", scene.name},
                     {"features", featuresJson(renderer.features(), settings)},
                     {"kernels", kernelsJson(gpu, renderer.features())},
-                    {"memory", memoryJson(gpu, settings)}};
+                    {"memory", memoryJson(gpu, renderer.features(), settings)}};
     if (options.json) fmt::print("{}\n", plan.dump(2));
     else print(plan);
     return 0;

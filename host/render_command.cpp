@@ -174,7 +174,7 @@ void Job::save() {
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(begin));
-    saveRender(options.output, renderer.film, settings.size, settings.exposure, std::move(attributes));
+    saveRender(options.output, renderer.film, settings, std::move(attributes));
 }
 
 Statistics Job::statistics() const {

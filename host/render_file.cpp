@@ -24,29 +24,40 @@ template <class Read> static auto named(const std::filesystem::path& file, Read 
     }
 }
 
+/// Bits of the layers that an attribute lists; all if there is none.
+static uint layersOf(const std::string& list) {
+    uint layers = 0;
+    for (uint i = 0; i < layerNames.size(); i++) layers |= uint((" " + list + " ").find(fmt::format(" {} ", layerNames[i])) != std::string::npos) << i;
+    return layers ? layers : allLayers;
+}
+
 RenderFile openRender(const std::filesystem::path& file) {
     RenderFile render{file, readExrHeader(file)};
     render.runs = named(file, [&] { return runsOf(render.header); });
+    render.layers = layersOf(render.attribute("layers"));
     return render;
 }
 
 void restore(Film& film, const RenderFile& file) {
     const Image image = readExr(file.path);
-    for (std::size_t i = 0; i < file.runs.size(); i++) film.restore(file.runs[i], named(file.path, [&] { return sumsOf(image, i); }));
+    for (std::size_t i = 0; i < file.runs.size(); i++) film.restore(file.runs[i], named(file.path, [&] { return sumsOf(image, i, file.layers); }));
 }
 
 std::filesystem::path pngBeside(std::filesystem::path exr) { return exr.replace_extension(".png"); }
 
-void saveRender(const std::filesystem::path& output, Film& film, uvec2 size, float exposure, std::map<std::string, std::string> attributes) {
+void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes) {
     const PassRange passes = film.passes();
-    Image image = filmImage(film.download(), size, film.passCount());
+    const std::vector<Pixel> pixels = film.download();
+    Image image = filmImage(pixels, settings.size, settings.layers);
     image.attributes = std::move(attributes);
     image.attributes["passes"] = std::to_string(film.passCount());
     image.attributes["passRange"] = fmt::format("{}:{}", passes.begin, passes.end);
-    image.attributes["exposure"] = fmt::format("{}", exposure);
-    for (std::size_t i = 0; i < film.runCount(); i++) addRun(image, film.run(i), film.sums(i));
+    image.attributes["exposure"] = fmt::format("{}", settings.exposure);
+    for (uint i = 0; i < layerNames.size(); i++)
+        if (settings.layers >> i & 1) image.attributes["layers"] += fmt::format("{}{}", image.attributes["layers"].empty() ? "" : " ", layerNames[i]);
+    for (std::size_t i = 0; i < film.runCount(); i++) addRun(image, film.run(i), film.sums(i), settings.layers);
     writeExr(output, image);
-    writePng(pngBeside(output), size, film.develop(exposure));
+    writePng(pngBeside(output), settings.size, develop(pixels, settings.exposure));
 }
 
 } // namespace vkpm

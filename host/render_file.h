@@ -2,6 +2,7 @@
 #pragma once
 #include "output/image.h"
 #include "render/film.h"
+#include "settings.h"
 #include <filesystem>
 
 namespace vkpm {
@@ -11,6 +12,7 @@ struct RenderFile {
     std::filesystem::path path;
     Image header;
     std::vector<PassRange> runs{};
+    uint layers = allLayers; // that were asked for
 
     PassRange passes() const { return {runs.front().begin, runs.back().end}; }
     const std::string& attribute(const std::string& name) const; // empty if it has none
@@ -25,7 +27,7 @@ void restore(Film& film, const RenderFile& file);
 /// The PNG that is written beside an EXR file.
 std::filesystem::path pngBeside(std::filesystem::path exr);
 
-/// Writes the picture of a film with its sums and further attributes, and a PNG beside it under `exposure` stops.
-void saveRender(const std::filesystem::path& output, Film& film, uvec2 size, float exposure, std::map<std::string, std::string> attributes);
+/// Writes the picture of a film with its sums and further attributes, and a PNG beside it; size, layers and exposure are the settings'.
+void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes);
 
 } // namespace vkpm

@@ -17,9 +17,5 @@ void main() {
     args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u);
     args.list.at[slot] = slot;
 
-    for (uint layer = 0u; layer < LAYER_COUNT; layer++) args.samples.at[slot].layers[layer] = vec3(0.0);
-    args.samples.at[slot].albedo = vec3(0.0);
-    args.samples.at[slot].normal = vec3(0.0);
-    args.samples.at[slot].depth = 0.0;
-    args.samples.at[slot].covered = 0.0;
+    for (uint column = 0u; column < SAMPLE_COLUMNS; column++) args.samples.at[column * args.stride + slot] = 0.0;
 }

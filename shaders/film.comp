@@ -2,19 +2,28 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "columns.glsl"
 #include "pixel_sum.glsl"
 
 ARGS(FilmArgs)
 
+void blacken(uint slot) {
+    for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
+        if (!hasLayer(layer) || isFinite(loadColumns(args.samples, args.stride, layerColumn(layer), slot))) continue;
+        atomicAdd(args.status.at[0].nonfinite[layer], 1u);
+        storeColumns(args.samples, args.stride, layerColumn(layer), slot, vec3(0.0));
+    }
+}
+
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
-    Sample s = args.samples.at[slot];
-    for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
-        if (isFinite(s.layers[layer])) continue;
-        atomicAdd(args.status.at[0].nonfinite[layer], 1u);
-        s.layers[layer] = vec3(0.0);
-    }
     uint pixel = args.firstPixel + slot;
-    args.sums.at[pixel] = join(args.sums.at[pixel], PixelSum(s, vec3(0.0)), args.perPass, 1.0, args.weight);
+    blacken(slot);
+    if (hasNoise != 0u) {
+        precise vec3 apart = beautyOf(args.sums, args.pixels, pixel) * args.weights.perPass - beautyOf(args.samples, args.stride, slot);
+        joinDeviations(args.sums, args.pixels, pixel, apart, vec3(0.0), args.weights);
+    }
+    for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+        args.sums.at[column * args.pixels + pixel] += args.samples.at[column * args.stride + slot];
 }

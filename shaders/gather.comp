@@ -7,6 +7,7 @@
 #include "grid.glsl"
 #include "radius_field.glsl"
 #include "density.glsl"
+#include "columns.glsl"
 
 ARGS(GatherArgs)
 
@@ -18,5 +19,5 @@ void main() {
     float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
                                                             : radiusAt(args.map, query.position);
     vec3 irradiance = estimateWithin(args.map, query, radius) * args.map.photonFlux;
-    args.samples.at[slot].layers[query.layer] += query.weight * irradiance;
+    addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
 }

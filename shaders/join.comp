@@ -2,12 +2,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "columns.glsl"
 #include "pixel_sum.glsl"
 
 ARGS(JoinArgs)
 
 void main() {
     uint pixel = threadIndex();
-    if (pixel < args.count)
-        args.sums.at[pixel] = join(args.sums.at[pixel], args.other.at[pixel], args.perPass, args.perOtherPass, args.weight);
+    if (pixel >= args.pixels) return;
+    if (hasNoise != 0u) {
+        precise vec3 apart = beautyOf(args.sums, args.pixels, pixel) * args.weights.perPass
+            - beautyOf(args.other, args.pixels, pixel) * args.weights.perOtherPass;
+        vec3 batch = loadColumns(args.other, args.pixels, COLUMN_COARSE, pixel);
+        joinDeviations(args.sums, args.pixels, pixel, apart, batch, args.weights);
+    }
+    for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+        args.sums.at[column * args.pixels + pixel] += args.other.at[column * args.pixels + pixel];
 }

@@ -6,6 +6,7 @@
 #include "frame.glsl"
 #include "grid.glsl"
 #include "density.glsl"
+#include "columns.glsl"
 
 ARGS(GatherArgs)
 
@@ -24,5 +25,5 @@ void main() {
         }
     }
     float brightest = maxComponent(sum);
-    args.samples.at[slot].layers[query.layer] += brightest > 0.0 ? sum / brightest : vec3(0.0);
+    if (brightest > 0.0) addToColumns(args.samples, args.stride, query.column, slot, sum / brightest);
 }

@@ -12,6 +12,7 @@
 #include "surface.glsl"
 #include "material.glsl"
 #include "light.glsl"
+#include "columns.glsl"
 
 ARGS(ShadeArgs)
 
@@ -28,10 +29,6 @@ vec2 bounceSample(Sampler s, uint pair) {
     return sample2(s, 4u * args.bounce + pair + 1u);
 }
 
-void add(uint slot, uint layer, vec3 radiance) {
-    args.samples.at[slot].layers[layer] += radiance;
-}
-
 // The layer of a path, by the name it has if no specular surface stands before the first diffuse one.
 uint layerOf(Path path, uint layer) {
     return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer;
@@ -42,12 +39,15 @@ uint layerOf(Path path, uint layer) {
 void seeLight(uint slot, Path path, Light light, vec3 normal) {
     uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
     if (diffuse > 0u && (chosen() != INTEGRATOR_PATH || (path.flags & PATH_SPECULAR) == 0u)) return;
-    uint layer = diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT;
-    add(slot, layerOf(path, layer), path.throughput * emittedRadiance(light, normal, -path.direction));
+    uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    if (!hasLayer(layer)) return;
+    addToColumns(args.samples, args.stride, layerColumn(layer), slot, path.throughput * emittedRadiance(light, normal, -path.direction));
 }
 
 // Asks for one light sample, chosen by flux, uniform over the light's area.
 bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight, Sampler s) {
+    uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
+    if (!hasLayer(layer)) return false;
     Light light = LightPtr(scene.lights).at[chooseLight(scene, bounceSample(s, 0u).x)];
     LightPoint point = sampleLight(light, bounceSample(s, 1u));
     vec3 toLight = point.position - surface.position;
@@ -59,15 +59,25 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
     if (!(maxComponent(radiance) > 0.0)) return false;
 
     vec3 lightSide = dot(w, point.normal) > 0.0 ? -point.normal : point.normal;
-    uint layer = path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT;
     args.shadowRays.at[slot] = ShadowRay(offsetPoint(surface.position, surface.magnitude, normal), surface.primitive,
-        offsetPoint(point.position, point.magnitude, lightSide), radiance, layerOf(path, layer));
+        offsetPoint(point.position, point.magnitude, lightSide), radiance, layerColumn(layer));
     return true;
 }
 
-void askMap(uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+// Returns the bit of the map's queue, or none if nobody asked for the layer.
+uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+    layer = layerOf(path, layer);
+    if (!hasLayer(layer)) return 0u;
     float footprint = path.travelled * args.pixelAngle;
-    args.queries.at[slot] = Query(surface.position, normal, weight, layerOf(path, layer), footprint);
+    args.queries.at[slot] = Query(surface.position, normal, weight, layerColumn(layer), footprint);
+    return 1u << queue;
+}
+
+// Whether light that is found beyond a diffuse vertex has a layer to go to.
+bool goesOn(Path path) {
+    if (chosen() == INTEGRATOR_DIRECT) return false;
+    if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer != 0u;
+    return hasIndirectLayer != 0u || (chosen() == INTEGRATOR_PATH && hasCausticLayer != 0u && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
@@ -103,22 +113,23 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
     vec3 weight = path.throughput * albedo;
 
     if (chosen() == INTEGRATOR_PHOTON_MAP) {
-        askMap(slot, path, surface, normal, path.throughput / PI, showsCaustics() ? LAYER_CAUSTIC : LAYER_INDIRECT);
-        return 1u << (showsCaustics() ? QUEUE_CAUSTIC : QUEUE_GLOBAL);
+        bool caustics = showsCaustics();
+        return askMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal, path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
     }
-    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) {
-        askMap(slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
-        return 1u << QUEUE_GLOBAL;
-    }
+    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) 
+        return askMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
 
     uint queues = 0u;
     if (askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
-    if (chosen() == INTEGRATOR_PHOTON && showsCaustics()) {
-        askMap(slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-        queues |= 1u << QUEUE_CAUSTIC;
-    }
-    if (chosen() != INTEGRATOR_DIRECT && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    if (chosen() == INTEGRATOR_PHOTON && showsCaustics())
+        queues |= askMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
+}
+
+// Whether light that is found beyond a specular vertex has a layer to go to.
+bool seesThrough(Path path) {
+    return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer != 0u;
 }
 
 uint shade(uint slot) {
@@ -130,10 +141,12 @@ uint shade(uint slot) {
     Material material = MaterialPtr(scene.materials).at[surface.material];
     float travelled = path.travelled + hit.t;
     if (args.bounce == 0u) {
-        args.samples.at[slot].albedo = material.color;
-        args.samples.at[slot].normal = surface.shading;
-        args.samples.at[slot].depth = hit.t * dot(path.direction, scene.camera.forward);
-        args.samples.at[slot].covered = 1.0;
+        if (hasAlbedo != 0u) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
+        if (hasNormal != 0u) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
+        if (hasDepth != 0u) {
+            args.samples.at[COLUMN_DEPTH * args.stride + slot] = hit.t * dot(path.direction, scene.camera.forward);
+            args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
+        }
     }
     if (surface.light != NONE && chosen() != INTEGRATOR_PHOTON_MAP)
         seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
@@ -142,7 +155,8 @@ uint shade(uint slot) {
     path.travelled = travelled;
     uint queues;
     if (isDiffuse(material)) queues = shadeDiffuse(scene, slot, path, surface, material.color, s);
-    else queues = uint(scatterAtSpecular(path, material, surface, travelled, s)) << QUEUE_CONTINUE;
+    else if (seesThrough(path)) queues = uint(scatterAtSpecular(path, material, surface, travelled, s)) << QUEUE_CONTINUE;
+    else queues = 0u;
     if ((queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = path;
     return queues;
 }

@@ -4,6 +4,7 @@
 #include "kernel.glsl"
 #include "intersect.glsl"
 #include "traverse.glsl"
+#include "columns.glsl"
 
 ARGS(ShadowArgs)
 
@@ -12,5 +13,5 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     ShadowRay ray = args.shadowRays.at[slot];
-    if (!occluded(args.scene.at[0], ray.origin, ray.target, ray.from)) args.samples.at[slot].layers[ray.layer] += ray.radiance;
+    if (!occluded(args.scene.at[0], ray.origin, ray.target, ray.from)) addToColumns(args.samples, args.stride, ray.column, slot, ray.radiance);
 }

@@ -65,7 +65,17 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(16, hasNearest, 1)                                                                                               \
     X(17, densityKernel, ANY)                                                                                          \
     X(18, integrator, ANY)                                                                                             \
-    X(19, stackSize, 64)
+    X(19, stackSize, 64)                                                                                               \
+    X(20, hasEmissionLayer, 1)                                                                                         \
+    X(21, hasDirectLayer, 1)                                                                                           \
+    X(22, hasSpecularLayer, 1)                                                                                         \
+    X(23, hasCausticLayer, 1)                                                                                          \
+    X(24, hasIndirectLayer, 1)                                                                                         \
+    X(25, hasAlbedo, 1)                                                                                                \
+    X(26, hasNormal, 1)                                                                                                \
+    X(27, hasDepth, 1)                                                                                                 \
+    X(28, hasNoise, 1)                                                                                                 \
+    X(29, hasDiffuse, 1)
 
 #ifdef __cplusplus
 struct Features {
@@ -202,29 +212,42 @@ const uint LAYER_CAUSTIC = 3u;  // L S+ D E
 const uint LAYER_INDIRECT = 4u; // L (S|D)* D S* D E
 const uint LAYER_COUNT = 5u;
 
-/// What one pass adds to a pixel: radiance by layer, and the first surface seen.
-struct Sample {
-    vec3 layers[LAYER_COUNT];
-    vec3 albedo;
-    vec3 normal;
-    float depth;   // distance along the camera's axis
-    float covered; // 1 if a surface was seen, else 0
-};
-BUFFER(Sample)
+// Samples and their sums are stored column by column: a float for each pixel, then those of the next column. What a render
+// does without has no column. One pass gives a pixel its radiance by layer and what it knows of the first surface seen:
+// albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface). Sums over a run of
+// passes have the squared deviations of beauty between batches of passes as well, see pixel_sum.glsl.
+#define COLUMNS(X)                                                                                                     \
+    X(COLUMN_EMISSION, 0u)                                                                                             \
+    X(COLUMN_DIRECT, COLUMN_EMISSION + 3u * hasEmissionLayer)                                                          \
+    X(COLUMN_SPECULAR, COLUMN_DIRECT + 3u * hasDirectLayer)                                                            \
+    X(COLUMN_CAUSTIC, COLUMN_SPECULAR + 3u * hasSpecularLayer)                                                         \
+    X(COLUMN_INDIRECT, COLUMN_CAUSTIC + 3u * hasCausticLayer)                                                          \
+    X(COLUMN_ALBEDO, COLUMN_INDIRECT + 3u * hasIndirectLayer)                                                          \
+    X(COLUMN_NORMAL, COLUMN_ALBEDO + 3u * hasAlbedo)                                                                   \
+    X(COLUMN_DEPTH, COLUMN_NORMAL + 3u * hasNormal)                                                                    \
+    X(COLUMN_COVERED, COLUMN_DEPTH + hasDepth)                                                                         \
+    X(SAMPLE_COLUMNS, COLUMN_COVERED + hasDepth)                                                                       \
+    X(COLUMN_FINE, SAMPLE_COLUMNS)                                                                                     \
+    X(COLUMN_COARSE, COLUMN_FINE + 3u * hasNoise)                                                                      \
+    X(SUM_COLUMNS, COLUMN_COARSE + 3u * hasNoise)
 
-/// Sums over a run of passes of a pixel's samples, and the sum of squared deviations of beauty from its mean.
-struct PixelSum {
-    Sample sum;
-    vec3 deviation;
+#ifdef __cplusplus
+/// Where the columns begin, and how many there are.
+struct Columns : Features {
+#define X(name, value) uint name;
+    COLUMNS(X)
+#undef X
+    explicit Columns(const Features& features = {}) : Features(features) {
+#define X(name, value) name = value;
+        COLUMNS(X)
+#undef X
+    }
 };
-BUFFER(PixelSum)
-const uint PIXEL_FLOATS = 26u;
-
-/// What a pixel shows: the means over passes in place of their sums.
-struct Pixel {
-    Sample mean;
-    vec3 deviation;
-};
+#else
+#define X(name, value) const uint name = value;
+COLUMNS(X)
+#undef X
+#endif
 
 /// Passes begin .. end - 1.
 struct PassRange {
@@ -461,16 +484,16 @@ struct ShadowRay {
     uint from; // primitive that the ray leaves
     vec3 target;
     vec3 radiance;
-    uint layer;
+    uint column; // of the samples, to which the radiance is added
 };
 BUFFER(ShadowRay)
 
-/// A point whose irradiance is estimated from a photon map; it adds weight times irradiance to a layer.
+/// A point whose irradiance is estimated from a photon map; it adds weight times irradiance to the samples.
 struct Query {
     vec3 position;
     vec3 normal; // geometric, on the side of the viewer
     vec3 weight;
-    uint layer;
+    uint column; // of the samples
     float footprint; // radius that a pixel covers there
 };
 BUFFER(Query)
@@ -478,8 +501,9 @@ BUFFER(Query)
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
-    PTR(Sample) samples;
+    PTR(float) samples; // [column][stride]
     PTR(uint) list;
+    uint stride;
     uvec2 size;
     uint firstPixel;
     uint count;
@@ -492,12 +516,13 @@ struct ShadeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(Hit) hits;
-    PTR(Sample) samples;
+    PTR(float) samples; // [column][stride]
     PTR(ShadowRay) shadowRays;
     PTR(Query) queries;
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
+    uint stride;
     uint firstPixel;
     uint pass;
     uint seed;
@@ -511,43 +536,46 @@ struct ShadeArgs {
 struct ShadowArgs {
     PTR(DeviceScene) scene;
     PTR(ShadowRay) shadowRays;
-    PTR(Sample) samples;
+    PTR(float) samples; // [column][stride]
     PTR(Queue) queue;
     PTR(uint) list;
+    uint stride;
 };
 
 struct GatherArgs {
     PhotonMap map;
     PTR(Query) queries;
-    PTR(Sample) samples;
+    PTR(float) samples; // [column][stride]
     PTR(Queue) queue;
     PTR(uint) list;
+    uint stride;
+};
+
+/// How the deviations of two adjacent runs of passes make those of both, see pixel_sum.glsl.
+struct JoinWeights {
+    float perPass;      // 1 / passes of the first run, or 0 if it has none
+    float perOtherPass; // 1 / passes of the second
+    float fine;
+    float coarse;
+    uint grows; // 1: the first run is a batch like the second, and both become one of the next size
 };
 
 struct FilmArgs {
-    PTR(Sample) samples;
-    PTR(PixelSum) sums; // of a run of m passes
+    PTR(float) samples; // [column][stride], of a pass
+    PTR(float) sums;    // [column][pixels], of a run of passes; becomes those of both
     PTR(Status) status;
+    uint stride;
+    uint pixels;
     uint firstPixel;
     uint count;
-    float perPass; // 1 / m, or 0 if m = 0
-    float weight;  // m / (m + 1)
+    JoinWeights weights;
 };
 
 struct JoinArgs {
-    PTR(PixelSum) sums;  // of m passes; becomes the sums of both
-    PTR(PixelSum) other; // of n passes
-    uint count;
-    float perPass;      // 1 / m, or 0 if m = 0
-    float perOtherPass; // 1 / n
-    float weight;       // m n / (m + n)
-};
-
-struct DevelopArgs {
-    PTR(PixelSum) sums;
-    PTR(uint) colors; // 8 bit sRGB, red in the lowest byte
-    uint count;
-    float exposure; // factor that makes means of the sums, too
+    PTR(float) sums;  // [column][pixels]; becomes those of both
+    PTR(float) other; // [column][pixels]
+    uint pixels;
+    JoinWeights weights;
 };
 
 // ---- The driver audit ---------------------------------------------------------------------------

@@ -107,9 +107,9 @@ double bruteForceNearest(const std::vector<Photon>& photons, const Query& query,
         const double d2 = distance2(photon, query, within);
         if (d2 < INFINITY) distances.push_back(d2);
     }
-    if (distances.size() < query.layer) return within;
-    std::ranges::nth_element(distances, distances.begin() + query.layer - 1);
-    return std::sqrt(distances[query.layer - 1]);
+    if (distances.size() < query.column) return within;
+    std::ranges::nth_element(distances, distances.begin() + query.column - 1);
+    return std::sqrt(distances[query.column - 1]);
 }
 
 TEST(Density, NearestRadiusIsTheDistanceOfTheKthPhoton) {

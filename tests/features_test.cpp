@@ -36,6 +36,26 @@ TEST(Features, ShippedScenesRenderTheSameBits) {
     }
 }
 
+// Many photons: what one in a million meets, such as a grazing hit, is in few pictures.
+TEST(Features, ShippedScenesEmitTheSamePhotons) {
+    for (const char* name : {"box", "ring", "glass", "pool"}) {
+        const Scene scene = shippedScene(name);
+        Settings general = scene.settings;
+        general.allFeatures = true;
+        const UploadedScene uploaded(testGpu(), scene, general);
+        const auto trace = [&](MapKind kind, const Settings& settings) {
+            PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(scene, settings), kind, 3'000'000, 1, 1u << 17);
+            const PhotonLedger ledger = tracing.trace(11);
+            return tracing.photons.download(ledger.stored);
+        };
+        for (const MapKind kind : {MapKind::global, MapKind::caustic}) {
+            const std::vector<Photon> special = trace(kind, scene.settings), all = trace(kind, general);
+            ASSERT_EQ(special.size(), all.size()) << name;
+            EXPECT_EQ(std::memcmp(special.data(), all.data(), all.size() * sizeof(Photon)), 0) << name;
+        }
+    }
+}
+
 // A scene of a few shapes in a room or in the open, drawn from everything that a scene file can say.
 class Generator {
 public:

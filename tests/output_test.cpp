@@ -136,14 +136,14 @@ std::vector<Pixel> somePixels() {
         mean.normal = vec3(-1, 0.5f, 0.125f);
         mean.depth = 3.0f * float(i);
         mean.covered = i == 0 ? 0.0f : 0.5f;
-        pixels[i].deviation = vec3(0.5f, 24, 2) * float(i);
+        pixels[i].noise = vec3(0.5f, 24, 2) * float(i);
     }
     return pixels;
 }
 
 TEST_F(OutputTest, FilmHasTheLayersAndBeautyIsTheirSum) {
     const std::vector<Pixel> pixels = somePixels();
-    const Image image = filmImage(pixels, {3, 2}, 4);
+    const Image image = filmImage(pixels, {3, 2}, allLayers);
     EXPECT_EQ(image.size, uvec2(3, 2));
     EXPECT_EQ(image.channels.size(), 28u);
     for (size_t i = 0; i < pixels.size(); ++i)
@@ -164,12 +164,21 @@ TEST_F(OutputTest, FilmHasTheLayersAndBeautyIsTheirSum) {
     EXPECT_EQ(valueAt(image, "depth.Z", 2), 12.0f);
 }
 
-TEST_F(OutputTest, NoiseIsTheStandardErrorOfTheMean) {
-    const std::vector<Pixel> pixels = somePixels();
-    EXPECT_FLOAT_EQ(valueAt(filmImage(pixels, {3, 2}, 4), "noise.G", 2), 2.0f); // sqrt(48 / (4 * 3))
-    EXPECT_FLOAT_EQ(valueAt(filmImage(pixels, {3, 2}, 2), "noise.B", 4), 2.0f); // sqrt(8 / (2 * 1))
-    EXPECT_EQ(valueAt(filmImage(pixels, {3, 2}, 1), "noise.G", 2), 0.0f);
-    EXPECT_GT(valueAt(filmImage(pixels, {3, 2}, 3'000'000'000), "noise.G", 2), 0.0f);
+TEST_F(OutputTest, FilmHasNoLayersThatNobodyAskedFor) {
+    const Image image = filmImage(somePixels(), {3, 2}, 1u << LAYER_CAUSTIC | 1u << ASK_DEPTH);
+    std::vector<std::string> names;
+    for (const Channel& channel : image.channels) names.push_back(channel.name);
+    EXPECT_THAT(names, ElementsAre("R", "G", "B", "caustic.R", "caustic.G", "caustic.B", "depth.Z"));
+}
+
+TEST_F(OutputTest, DevelopedIsSrgbUnderAnExposure) {
+    std::vector<Pixel> pixels(4, Pixel{});
+    pixels[1].mean.layers[LAYER_DIRECT] = vec3(0.25f, 1, 9);
+    pixels[1].mean.layers[LAYER_INDIRECT] = vec3(0.25f, 0, 0);
+    pixels[2].mean.layers[LAYER_DIRECT] = vec3(0.001f, -1, 0.0031308f);
+    pixels[3].mean.layers[LAYER_DIRECT] = vec3(0.25f);
+    EXPECT_THAT(develop(pixels, 0), ElementsAre(0xff000000u, 0xffffffbcu, 0xff0a0003u, 0xff898989u));
+    EXPECT_EQ(develop(pixels, 1)[3], 0xffbcbcbcu);
 }
 
 TEST_F(OutputTest, PngCanBeReadBack) {

@@ -2,6 +2,7 @@
 #include "judge.h"
 #include "map.h"
 #include "render/film.h"
+#include "scene/scene.h"
 #include <algorithm>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -62,26 +63,34 @@ TEST(PassRuns, JoinOnlyTheNextSibling) {
 
 const uvec2 size{8, 4};
 
-std::vector<Sample> samplesOf(uint pass) {
+const Columns columns;
+
+// [column][pixel]
+std::vector<float> samplesOf(uint pass) {
     Random random(pass);
-    std::vector<Sample> samples(size.x * size.y);
-    for (Sample& sample : samples)
-        for (std::size_t k = 0; k < sizeof(Sample) / 4; k++)
-            reinterpret_cast<float*>(&sample)[k] = std::exp(0.3f * float(random.bits() % 100)) * (random.bits() % 2 ? 1e-3f : 1.0f);
+    std::vector<float> samples(columns.SAMPLE_COLUMNS * size.x * size.y);
+    for (float& value : samples) value = std::exp(0.3f * float(random.bits() % 100)) * (random.bits() % 2 ? 1e-3f : 1.0f);
     return samples;
+}
+
+vec3 layerAt(const std::vector<float>& samples, uint layer, std::size_t pixel) {
+    const std::size_t stride = samples.size() / columns.SAMPLE_COLUMNS;
+    const auto at = [&](uint c) { return samples[(3 * layer + c) * stride + pixel]; };
+    return {at(0), at(1), at(2)};
 }
 
 Film filmOf(PassRange passes) {
     Film film(testGpu(), size);
-    Buffer<Sample> samples(testGpu(), "samples", size.x * size.y);
+    const uint pixels = size.x * size.y;
     for (uint pass = passes.begin; pass < passes.end; pass++) {
-        samples.upload(samplesOf(pass));
+        const std::vector<float> all = samplesOf(pass);
         film.begin(pass);
-        film.add(samples, 0, 20); // in two tiles
-        std::vector<Sample> rest = samples.download();
-        rest.erase(rest.begin(), rest.begin() + 20);
-        samples.upload(rest);
-        film.add(samples, 20, size.x * size.y - 20);
+        for (const auto& [first, end] : {std::pair{0u, 20u}, {20u, pixels}}) { // in two tiles
+            std::vector<float> tile;
+            for (uint column = 0; column < columns.SAMPLE_COLUMNS; column++)
+                tile.insert(tile.end(), all.begin() + column * pixels + first, all.begin() + column * pixels + end);
+            film.add(Buffer<float>(testGpu(), "samples", tile), end - first, first, end - first);
+        }
         film.end();
     }
     return film;
@@ -104,38 +113,85 @@ TEST(Film, PartsGiveTheBitsOfTheWhole) {
     }
 }
 
-TEST(Film, MeansAndVariancesAreThoseOfDoublePrecision) {
-    const uint passes = 300;
-    const std::vector<Pixel> pixels = filmOf({0, passes}).download();
-    for (std::size_t i = 0; i < pixels.size(); i++) {
-        std::vector<glm::dvec3> beauty;
-        glm::dvec3 direct{0}, mean{0}, squares{0};
-        for (uint pass = 0; pass < passes; pass++) {
-            const Sample sample = samplesOf(pass)[i];
-            glm::dvec3 sum{0};
-            for (const vec3& layer : sample.layers) sum += glm::dvec3(layer);
-            beauty.push_back(sum);
-            mean += sum / double(passes);
-            direct += glm::dvec3(sample.layers[LAYER_DIRECT]) / double(passes);
-        }
-        for (const glm::dvec3& b : beauty) squares += (b - mean) * (b - mean);
-        for (int c = 0; c < 3; c++) {
-            EXPECT_NEAR(pixels[i].mean.layers[LAYER_DIRECT][c], direct[c], 1e-6 * direct[c]);
-            EXPECT_NEAR(pixels[i].deviation[c], squares[c], 1e-5 * squares[c]);
+TEST(PassRuns, BatchesAreFourToFifteenAndTheirParts) {
+    for (uint n = 4; n < 5000; n++) {
+        const Batches batches = batchesOf(runsOf({0, n}));
+        EXPECT_GE(n / batches.size, 4u) << n;
+        EXPECT_LT(n / batches.size, 16u) << n;
+        EXPECT_GE(batches.count, n / batches.size) << n;
+        EXPECT_LE(batches.count, n / batches.size + 6) << n;
+    }
+    EXPECT_EQ(batchesOf(runsOf({0, 1})).count, 1u);
+    EXPECT_EQ(batchesOf(runsOf({0, 3})).count, 3u);
+}
+
+// Squared deviations of batches as defined: whole ones of a size, and a part of one for each run that is less.
+TEST(Film, NoiseIsTheStandardErrorOfTheMeanOfBatches) {
+    for (const PassRange passes : {PassRange{0, 16}, {0, 3}, {0, 64}, {0, 100}, {3, 90}, {20, 21}}) {
+        const std::vector<PassRange> runs = runsOf(passes);
+        const Batches batches = batchesOf(runs);
+        std::vector<PassRange> parts;
+        for (const PassRange run : runs)
+            for (uint first = run.begin; first < run.end; first += batches.size) parts.push_back({first, std::min(run.end, first + batches.size)});
+        ASSERT_EQ(parts.size(), batches.count);
+
+        const std::vector<Pixel> pixels = filmOf(passes).download();
+        for (std::size_t i = 0; i < pixels.size(); i++) {
+            std::vector<glm::dvec3> means;
+            glm::dvec3 mean{0}, direct{0};
+            for (const PassRange part : parts) {
+                glm::dvec3 sum{0};
+                for (uint pass = part.begin; pass < part.end; pass++) {
+                    const std::vector<float> samples = samplesOf(pass);
+                    for (uint layer = 0; layer < LAYER_COUNT; layer++) sum += glm::dvec3(layerAt(samples, layer, i));
+                    direct += glm::dvec3(layerAt(samples, LAYER_DIRECT, i)) / double(length(passes));
+                }
+                mean += sum / double(length(passes));
+                means.push_back(sum / double(length(part)));
+            }
+            glm::dvec3 squares{0};
+            for (std::size_t k = 0; k < parts.size(); k++) squares += (means[k] - mean) * (means[k] - mean) * (double(length(parts[k])) / batches.size);
+            const double weights = double(length(passes)) / batches.size;
+            for (int c = 0; c < 3; c++) {
+                const double noise = parts.size() < 2 ? 0 : std::sqrt(squares[c] / (double(parts.size()) - 1) / weights);
+                EXPECT_NEAR(pixels[i].mean.layers[LAYER_DIRECT][c], direct[c], 1e-6 * direct[c]);
+                EXPECT_NEAR(pixels[i].noise[c], noise, 1e-5 * noise) << passes.begin << ":" << passes.end;
+            }
         }
     }
 }
 
+TEST(Film, ColumnsThatAreLeftOutAreZeroAndChangeNoOther) {
+    Features few;
+    askFor(1u << LAYER_DIRECT | 1u << LAYER_INDIRECT | 1u << ASK_DEPTH | 1u << ASK_NOISE, few);
+    const Columns own(few);
+    const uint pixels = size.x * size.y;
+    Film film(testGpu(), size, few), all(testGpu(), size);
+    for (uint pass = 0; pass < 6; pass++) {
+        const std::vector<float> full = samplesOf(pass);
+        std::vector<float> part(own.SAMPLE_COLUMNS * pixels), zeroed(full.size());
+        for (const auto& [from, to, count] : {std::tuple{columns.COLUMN_DIRECT, own.COLUMN_DIRECT, 3u}, {columns.COLUMN_INDIRECT, own.COLUMN_INDIRECT, 3u}, {columns.COLUMN_DEPTH, own.COLUMN_DEPTH, 2u}}) {
+            std::copy_n(full.begin() + from * pixels, count * pixels, part.begin() + to * pixels);
+            std::copy_n(full.begin() + from * pixels, count * pixels, zeroed.begin() + from * pixels);
+        }
+        for (auto&& [target, samples] : {std::pair<Film*, std::vector<float>*>{&film, &part}, {&all, &zeroed}}) {
+            target->begin(pass);
+            target->add(Buffer<float>(testGpu(), "samples", *samples), pixels, 0, pixels);
+            target->end();
+        }
+    }
+    expectSameBits(film.download(), all.download());
+}
+
 TEST(Film, CountsWhatIsNotFiniteAsBlack) {
     Film film(testGpu(), {2, 1});
-    Buffer<Sample> samples(testGpu(), "samples", 2);
-    std::vector<Sample> values(2, Sample{});
-    values[0].layers[LAYER_DIRECT] = vec3(NAN, 1, 1);
-    values[1].layers[LAYER_CAUSTIC] = vec3(INFINITY);
-    values[1].layers[LAYER_DIRECT] = vec3(2);
-    samples.upload(values);
+    std::vector<float> values(2 * columns.SAMPLE_COLUMNS);
+    values[2 * columns.COLUMN_DIRECT] = NAN;
+    values[2 * columns.COLUMN_DIRECT + 2] = 1;
+    values[2 * columns.COLUMN_CAUSTIC + 1] = INFINITY;
+    for (uint c = 0; c < 3; c++) values[2 * (columns.COLUMN_DIRECT + c) + 1] = 2;
     film.begin(0);
-    film.add(samples, 0, 2);
+    film.add(Buffer<float>(testGpu(), "samples", values), 2, 0, 2);
     film.end();
     const std::vector<Pixel> pixels = film.download();
     EXPECT_EQ(pixels[0].mean.layers[LAYER_DIRECT], vec3(0));

@@ -30,7 +30,7 @@ public:
 };
 
 inline Query queryAt(vec3 position, uint nearest = 0, vec3 normal = {0, 0, 1}) {
-    return {.position = position, .normal = normal, .weight = vec3(1), .layer = nearest};
+    return {.position = position, .normal = normal, .weight = vec3(1), .column = nearest};
 }
 
 /// Squared distance of a photon if it counts for a query (see density.glsl), or infinity; in double precision.

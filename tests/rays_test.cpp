@@ -39,14 +39,14 @@ public:
     std::vector<bool> occluded(std::span<const TestRay> rays) {
         std::vector<ShadowRay> asked;
         for (const TestRay& ray : rays)
-            asked.push_back({ray.origin, ray.from, ray.origin + ray.direction, vec3{1}, LAYER_DIRECT});
+            asked.push_back({ray.origin, ray.from, ray.origin + ray.direction, vec3{1}, 0});
         const Buffer<ShadowRay> shadowRays(gpu, "shadow rays", asked);
-        const Buffer<Sample> samples(gpu, "samples", std::vector<Sample>(rays.size()));
+        const Buffer<float> samples(gpu, "samples", std::vector<float>(3 * rays.size()));
         runAll(shadow, rays.size(), [&](const auto& queue, const auto& list) {
-            return ShadowArgs{uploaded.address, shadowRays, samples, queue, list};
+            return ShadowArgs{uploaded.address, shadowRays, samples, queue, list, static_cast<uint>(rays.size())};
         });
         std::vector<bool> result;
-        for (const Sample& sample : samples.download()) result.push_back(sample.layers[LAYER_DIRECT] == vec3{0});
+        for (const float red : samples.download(rays.size())) result.push_back(red == 0);
         return result;
     }
 

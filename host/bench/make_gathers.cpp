@@ -55,7 +55,7 @@ BenchGathers makeGathers(const Scene& scene) {
     for (std::size_t i = 0; i < photonCount; i++) gathers.photons.push_back(surface.point(random));
     for (std::size_t i = 0; i < queryCount; i++) {
         const SurfacePoint at = surface.point(random);
-        gathers.queries.push_back({at.position, at.normal, vec3{1}, LAYER_INDIRECT, 0});
+        gathers.queries.push_back({at.position, at.normal, vec3{1}, 0, 0});
     }
     gathers.radius = float(std::sqrt(photonsPerDisc * surface.area() / (glm::pi<double>() * double(photonCount))));
     return gathers;

@@ -58,7 +58,7 @@ BenchRays makeRays(const Scene& scene, const EmbreeScene& embree) {
         const vec3 cosine = point.normal + 0.9999f * random.direction();
         rays.bounce.push_back(startPath(point.position, glm::normalize(cosine), hit.primitive));
         const Light& light = scene.lights[random.below(scene.lights.size())];
-        rays.shadow.push_back({point.position, hit.primitive, pointOn(light, random), vec3{1}, LAYER_DIRECT});
+        rays.shadow.push_back({point.position, hit.primitive, pointOn(light, random), vec3{1}, 0});
     }
     if (rays.bounce.empty())
         throw InputError("bench: the scene's camera sees nothing; allowed: one that sees a surface");

@@ -36,12 +36,12 @@ Measurement measureClosest(Gpu& gpu, const Scene& scene, const UploadedScene& up
 Measurement measureShadow(Gpu& gpu, const Scene& scene, const UploadedScene& uploaded, const EmbreeScene& embree,
                           const std::vector<ShadowRay>& rays) {
     const Buffer<ShadowRay> shadowRays(gpu, "bench shadow rays", rays);
-    const Buffer<Sample> samples(gpu, "bench samples", rays.size());
+    const Buffer<float> samples(gpu, "bench samples", 3 * rays.size());
     const WholeQueue all(gpu, rays.size());
     const Kernel<ShadowArgs> shadow(gpu, "shadow", sceneFeatures(scene, scene.settings));
     const auto kernel = [&] {
         Recording recording(gpu);
-        recording.run(shadow, rays.size(), {uploaded.address, shadowRays, samples, all.queue, all.list});
+        recording.run(shadow, rays.size(), {uploaded.address, shadowRays, samples, all.queue, all.list, static_cast<uint>(rays.size())});
         recording.submit();
     };
     std::vector<vec3> direct(rays.size());

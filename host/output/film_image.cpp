@@ -1,13 +1,12 @@
 /// The film as an image with the layers and features that users find in the EXR file.
 #include "output/film_image.h"
-#include <array>
+#include "settings.h"
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace vkpm {
 namespace {
-
-constexpr std::array<const char*, LAYER_COUNT> LAYERS{"emission.", "direct.", "specular.", "caustic.", "indirect."};
 
 /// The image under construction: each channel is a function of a pixel.
 struct Film {
@@ -33,26 +32,36 @@ vec3 beauty(const Pixel& pixel) {
     return sum;
 }
 
-/// The standard error of the mean of n passes from their sum of squared deviations.
-vec3 standardError(const Pixel& pixel, double n) {
-    return n < 2 ? vec3(0) : vec3(glm::sqrt(glm::dvec3(pixel.deviation) / (n * (n - 1))));
+uint encodeSrgb(float linear) {
+    const float c = std::clamp(linear, 0.0f, 1.0f);
+    return static_cast<uint>(std::lround(255 * (c > 0.0031308f ? 1.055f * std::pow(c, 1 / 2.4f) - 0.055f : 12.92f * c)));
 }
 
 } // namespace
 
-Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint passes) {
+Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers) {
     assert(pixels.size() == size_t(size.x) * size.y);
+    const auto asked = [&](uint layer) { return (layers >> layer & 1) != 0; };
     Film film{pixels, {.size = size}};
     film.addVector("", "RGB", beauty);
     for (uint layer = 0; layer < LAYER_COUNT; ++layer)
-        film.addVector(LAYERS[layer], "RGB", [=](const Pixel& pixel) { return pixel.mean.layers[layer]; });
-    film.addVector("albedo.", "RGB", [](const Pixel& pixel) { return pixel.mean.albedo; });
-    film.addVector("normal.", "XYZ", [](const Pixel& pixel) { return pixel.mean.normal; });
-    film.addChannel("depth.Z", [](const Pixel& pixel) {
-        return pixel.mean.covered > 0 ? pixel.mean.depth / pixel.mean.covered : 0.0f;
-    });
-    film.addVector("noise.", "RGB", [=](const Pixel& pixel) { return standardError(pixel, passes); });
+        if (asked(layer)) film.addVector(std::string(layerNames[layer]) + ".", "RGB", [=](const Pixel& pixel) { return pixel.mean.layers[layer]; });
+    if (asked(ASK_ALBEDO)) film.addVector("albedo.", "RGB", [](const Pixel& pixel) { return pixel.mean.albedo; });
+    if (asked(ASK_NORMAL)) film.addVector("normal.", "XYZ", [](const Pixel& pixel) { return pixel.mean.normal; });
+    if (asked(ASK_DEPTH))
+        film.addChannel("depth.Z", [](const Pixel& pixel) { return pixel.mean.covered > 0 ? pixel.mean.depth / pixel.mean.covered : 0.0f; });
+    if (asked(ASK_NOISE)) film.addVector("noise.", "RGB", [](const Pixel& pixel) { return pixel.noise; });
     return std::move(film.image);
+}
+
+std::vector<uint> develop(std::span<const Pixel> pixels, float exposure) {
+    std::vector<uint> colors;
+    colors.reserve(pixels.size());
+    for (const Pixel& pixel : pixels) {
+        const vec3 c = beauty(pixel) * std::exp2(exposure);
+        colors.push_back(encodeSrgb(c.x) | encodeSrgb(c.y) << 8 | encodeSrgb(c.z) << 16 | 0xff000000u);
+    }
+    return colors;
 }
 
 } // namespace vkpm

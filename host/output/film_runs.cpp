@@ -1,6 +1,7 @@
 /// Sums of passes to channels and back.
 #include "output/film_runs.h"
 #include "gpu/error.h"
+#include "settings.h"
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,13 +10,20 @@
 namespace vkpm {
 namespace {
 
-static_assert(sizeof(PixelSum) == PIXEL_FLOATS * sizeof(float));
-constexpr std::array<const char*, PIXEL_FLOATS> NAMES{
-    "emission.R", "emission.G", "emission.B", "direct.R",   "direct.G",   "direct.B", "specular.R",  "specular.G",  "specular.B",
-    "caustic.R",  "caustic.G",  "caustic.B",  "indirect.R", "indirect.G", "indirect.B", "albedo.R",  "albedo.G",    "albedo.B",
-    "normal.X",   "normal.Y",   "normal.Z",   "depth.Z",    "covered.Y",  "deviation.R", "deviation.G", "deviation.B"};
+/// The floats of a PixelSum, each with the layer that it belongs to, by place in layerNames.
+struct Column {
+    const char* name;
+    uint layer;
+};
+constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
+    {"emission.R", 0}, {"emission.G", 0}, {"emission.B", 0}, {"direct.R", 1},         {"direct.G", 1},   {"direct.B", 1},
+    {"specular.R", 2}, {"specular.G", 2}, {"specular.B", 2}, {"caustic.R", 3},        {"caustic.G", 3},  {"caustic.B", 3},
+    {"indirect.R", 4}, {"indirect.G", 4}, {"indirect.B", 4}, {"albedo.R", 5},         {"albedo.G", 5},   {"albedo.B", 5},
+    {"normal.X", 6},   {"normal.Y", 6},   {"normal.Z", 6},   {"depth.Z", ASK_DEPTH},  {"covered.Y", ASK_DEPTH},
+    {"fine.R", 8},     {"fine.G", 8},     {"fine.B", 8},     {"coarse.R", ASK_NOISE}, {"coarse.G", 8},   {"coarse.B", 8},
+}};
 
-std::string channelName(std::size_t run, std::size_t index) { return fmt::format("state{}.{}", run, NAMES[index]); }
+std::string channelName(std::size_t run, std::size_t index) { return fmt::format("state{}.{}", run, COLUMN_NAMES[index].name); }
 
 const Channel& channelOf(const Image& image, const std::string& name) {
     for (const Channel& channel : image.channels)
@@ -40,11 +48,12 @@ PassRange takeRange(std::string_view& text) {
 
 } // namespace
 
-void addRun(Image& image, PassRange passes, std::span<const PixelSum> sums) {
+void addRun(Image& image, PassRange passes, std::span<const PixelSum> sums, uint layers) {
     std::string& runs = image.attributes["runs"];
     const auto index = runs.empty() ? 0 : std::ranges::count(runs, ' ') + 1;
     runs += fmt::format("{}{}:{}", runs.empty() ? "" : " ", passes.begin, passes.end);
     for (std::size_t k = 0; k < PIXEL_FLOATS; k++) {
+        if (!(layers >> COLUMN_NAMES[k].layer & 1)) continue;
         std::vector<float> values;
         values.reserve(sums.size());
         for (const PixelSum& sum : sums) values.push_back(reinterpret_cast<const float*>(&sum)[k]);
@@ -63,9 +72,10 @@ std::vector<PassRange> runsOf(const Image& image) {
     return runs;
 }
 
-std::vector<PixelSum> sumsOf(const Image& image, std::size_t run) {
-    std::vector<PixelSum> sums(std::size_t(image.size.x) * image.size.y);
+std::vector<PixelSum> sumsOf(const Image& image, std::size_t run, uint layers) {
+    std::vector<PixelSum> sums(std::size_t(image.size.x) * image.size.y, PixelSum{});
     for (std::size_t k = 0; k < PIXEL_FLOATS; k++) {
+        if (!(layers >> COLUMN_NAMES[k].layer & 1)) continue;
         const std::vector<float>& values = channelOf(image, channelName(run, k)).values;
         for (std::size_t i = 0; i < sums.size(); i++) reinterpret_cast<float*>(&sums[i])[k] = values[i];
     }

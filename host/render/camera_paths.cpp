@@ -8,13 +8,19 @@ namespace vkpm {
 const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
-CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& set, uint wave)
-    : gpu(device), scene(uploaded), settings(set), hasCausticMap(features.hasCausticMap != 0), size(std::min(set.size.x * set.size.y, wave)),
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)
+    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, wave)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      shadowRays(gpu, "camera shadow rays", size), queries(gpu, "camera queries", size), eye(gpu, "eye", features),
-      traceKernel(gpu, "trace", features), shade(gpu, "shade", features), shadow(gpu, "shadow", features),
-      gather(gpu, set.showPoints ? "points" : "gather", features) {
-    samples = Buffer<Sample>(gpu, "camera samples", size);
+      eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
+    samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
+    if (asksLights(features, settings)) {
+        shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);
+        shadow.emplace(gpu, "shadow", features);
+    }
+    if (asksMaps(features)) {
+        queries = Buffer<Query>(gpu, "camera queries", size);
+        gather.emplace(gpu, settings.showPoints ? "points" : "gather", features);
+    }
     const Camera camera = scene.address.read1().camera;
     pixelAngle = 2 * glm::length(camera.up) / float(settings.size.y);
 }
@@ -23,23 +29,23 @@ void CameraPaths::bounce(Recording& recording, uint pass, uint first, uint index
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, first, pass,
-                   settings.seed, index, hasCausticMap, maps.nearDistance, pixelAngle, settings.integrator});
+                  {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, size, first, pass,
+                   settings.seed, index, features.hasCausticMap, maps.nearDistance, pixelAngle, settings.integrator});
     compaction.compact(recording);
 
     const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
-    recording.run(shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list});
+    if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list, size});
     if (maps.caustic.cells.address)
-        recording.run(gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list});
+        recording.run(*gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, size});
     if (maps.global.cells.address)
-        recording.run(gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list});
+        recording.run(*gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, size});
 }
 
 RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
     Recording recording(gpu);
     compaction.start(count);
     recording.run(eye, count,
-                  {scene.address, paths, samples, compaction.list, settings.size, first, count, pass, settings.seed, settings.showPoints});
+                  {scene.address, paths, samples, compaction.list, size, settings.size, first, count, pass, settings.seed, settings.showPoints});
 
     // Batches of bounces, until the device says that no path is left.
     std::vector<Queue> queues;

@@ -2,6 +2,7 @@
 #pragma once
 #include "render/compaction.h"
 #include "render/device_scene.h"
+#include <optional>
 
 namespace vkpm {
 
@@ -27,7 +28,7 @@ public:
     /// Fills `samples` for the pixels from `first` on.
     RayCounts trace(uint pass, uint first, uint count, const PhotonMaps& maps);
 
-    Buffer<Sample> samples;
+    Buffer<float> samples; // [column][capacity]
 
 private:
     void bounce(Recording& recording, uint pass, uint first, uint bounce, const PhotonMaps& maps);
@@ -35,7 +36,7 @@ private:
     Gpu& gpu;
     const UploadedScene& scene;
     Settings settings;
-    bool hasCausticMap;
+    Features features;
     uint size;
     float pixelAngle;
     Compaction compaction;
@@ -46,8 +47,8 @@ private:
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;
-    Kernel<ShadowArgs> shadow;
-    Kernel<GatherArgs> gather;
+    std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
+    std::optional<Kernel<GatherArgs>> gather;
 };
 
 } // namespace vkpm

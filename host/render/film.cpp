@@ -1,14 +1,92 @@
-/// The film and its development.
+/// The film, and its means on the host.
 #include "render/film.h"
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace vkpm {
+namespace {
 
-static uint length(PassRange passes) { return passes.end - passes.begin; }
+using glm::dvec3;
 
-Film::Film(Gpu& device, uvec2 size)
-    : gpu(device), count(size.x * size.y), status(gpu, "film status", 1), film(gpu, "film"), join(gpu, "join") {
+/// Where a column of PixelSum is among those of a film, and how many floats it has there: none if the film is without it.
+struct Place {
+    uint inPixel;
+    uint inFilm;
+    uint floats;
+};
+
+std::vector<Place> placesOf(const Columns& film) {
+    const Columns all;
+    assert(all.SUM_COLUMNS == PIXEL_FLOATS);
+    const std::array pixel{
+#define X(name, value) all.name,
+        COLUMNS(X)
+#undef X
+    };
+    const std::array own{
+#define X(name, value) film.name,
+        COLUMNS(X)
+#undef X
+    };
+    std::vector<Place> places;
+    for (std::size_t i = 0; i + 1 < own.size(); i++) places.push_back({pixel[i], own[i], own[i + 1] - own[i]});
+    return places;
+}
+
+template <class Copy> void forEachFloat(const Columns& film, Copy copy) {
+    for (const Place& place : placesOf(film))
+        for (uint i = 0; i < place.floats; i++) copy(place.inPixel + i, place.inFilm + i);
+}
+
+/// Means over runs of passes, in double precision, with the deviations between batches of passes.
+struct Total {
+    dvec3 layers[LAYER_COUNT]{};
+    dvec3 albedo{0}, normal{0};
+    double depth = 0, covered = 0;
+    dvec3 beauty{0};    // mean so far
+    dvec3 deviation{0}; // squares, with batches as weights
+    double batches = 0;
+
+    void add(const PixelSum& run, PassRange passes, uint batch);
+    Pixel pixel(double passes, uint count) const;
+};
+
+void Total::add(const PixelSum& run, PassRange passes, uint batch) {
+    dvec3 sum{0};
+    for (uint layer = 0; layer < LAYER_COUNT; layer++) {
+        layers[layer] += dvec3(run.sum.layers[layer]);
+        sum += dvec3(run.sum.layers[layer]);
+    }
+    albedo += dvec3(run.sum.albedo);
+    normal += dvec3(run.sum.normal);
+    depth += double(run.sum.depth);
+    covered += double(run.sum.covered);
+
+    const uint coarse = coarseBatch(passes);
+    const double weight = double(length(passes)) / batch;
+    const dvec3 apart = sum / double(length(passes)) - beauty;
+    if (length(passes) > batch) deviation += dvec3(coarse == batch ? run.coarse : run.fine);
+    deviation += apart * apart * (batches * weight / (batches + weight));
+    batches += weight;
+    beauty += apart * (weight / batches);
+}
+
+Pixel Total::pixel(double passes, uint count) const {
+    Pixel pixel{};
+    for (uint layer = 0; layer < LAYER_COUNT; layer++) pixel.mean.layers[layer] = vec3(layers[layer] / passes);
+    pixel.mean.albedo = vec3(albedo / passes);
+    pixel.mean.normal = vec3(normal / passes);
+    pixel.mean.depth = float(depth / passes);
+    pixel.mean.covered = float(covered / passes);
+    if (count > 1) pixel.noise = vec3(glm::sqrt(deviation / (count - 1.0) / batches));
+    return pixel;
+}
+
+} // namespace
+
+Film::Film(Gpu& device, uvec2 size, const Features& features)
+    : gpu(device), count(size.x * size.y), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
     Recording recording(gpu);
     recording.clear(status);
     recording.submit();
@@ -16,9 +94,17 @@ Film::Film(Gpu& device, uvec2 size)
 
 PassRange Film::passes() const { return runs.empty() ? PassRange{} : PassRange{runs.front().passes.begin, runs.back().passes.end}; }
 
+std::vector<PassRange> Film::ranges() const {
+    std::vector<PassRange> ranges;
+    for (const Run& run : runs) ranges.push_back(run.passes);
+    return ranges;
+}
+
+Batches Film::batches() const { return batchesOf(ranges()); }
+
 Film::Run& Film::append(PassRange passes) {
     assert(runs.empty() || runs.back().passes.end == passes.begin);
-    Buffer<PixelSum> sums = spare.size() ? std::move(spare) : Buffer<PixelSum>(gpu, "film", count);
+    Buffer<float> sums = spare.size() ? std::move(spare) : Buffer<float>(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * count);
     spare = {};
     return runs.emplace_back(passes, std::move(sums));
 }
@@ -30,11 +116,11 @@ void Film::begin(uint pass) {
     recording.submit();
 }
 
-void Film::add(const Buffer<Sample>& samples, uint first, uint sampleCount) {
+void Film::add(const Buffer<float>& samples, uint stride, uint first, uint sampleCount) {
     const Run& run = runs.back();
-    const float m = static_cast<float>(length(run.passes));
     Recording recording(gpu);
-    recording.run(film, sampleCount, {samples, run.sums, status, first, sampleCount, m > 0 ? 1 / m : 0, m / (m + 1)});
+    recording.run(film, sampleCount,
+                  {samples, run.sums, status, stride, count, first, sampleCount, joinWeights(run.passes, {run.passes.end, run.passes.end + 1})});
     recording.submit();
 }
 
@@ -43,59 +129,47 @@ void Film::end() {
     joinLast();
 }
 
-void Film::restore(PassRange passes, std::span<const PixelSum> sums) {
-    append(passes).sums.upload(sums);
-    joinLast();
+std::vector<PixelSum> Film::sums(std::size_t index) const {
+    const std::vector<float> values = runs[index].sums.download();
+    std::vector<PixelSum> sums(count, PixelSum{});
+    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+        for (uint i = 0; i < count; i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[std::size_t(inFilm) * count + i];
+    });
+    return sums;
 }
 
-void Film::addTo(Run& run, const Run& other) {
-    const float m = static_cast<float>(length(run.passes));
-    const float n = static_cast<float>(length(other.passes));
-    Recording recording(gpu);
-    recording.run(join, count, {run.sums, other.sums, count, m > 0 ? 1 / m : 0, 1 / n, m * n / (m + n)});
-    recording.submit();
-    run.passes.end = other.passes.end;
+void Film::restore(PassRange passes, std::span<const PixelSum> sums) {
+    std::vector<float> values(std::size_t(columns.SUM_COLUMNS) * count);
+    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+        for (uint i = 0; i < count; i++) values[std::size_t(inFilm) * count + i] = reinterpret_cast<const float*>(&sums[i])[inPixel];
+    });
+    append(passes).sums.upload(values);
+    joinLast();
 }
 
 void Film::joinLast() {
     while (runs.size() > 1 && joins(runs[runs.size() - 2].passes, runs.back().passes)) {
-        addTo(runs[runs.size() - 2], runs.back());
+        Run& run = runs[runs.size() - 2];
+        const Run& last = runs.back();
+        Recording recording(gpu);
+        recording.run(join, count, {run.sums, last.sums, count, joinWeights(run.passes, last.passes)});
+        recording.submit();
+        run.passes.end = last.passes.end;
         spare = std::move(runs.back().sums);
         runs.pop_back();
     }
 }
 
-Film::Run Film::total() {
-    Run sum{{passes().begin, passes().begin}, Buffer<PixelSum>(gpu, "film total", count)};
-    Recording recording(gpu);
-    recording.clear(sum.sums);
-    recording.submit();
-    for (const Run& run : runs) addTo(sum, run);
-    return sum;
-}
-
-std::vector<uint> Film::develop(float exposure) {
-    const Kernel<DevelopArgs> kernel(gpu, "develop");
-    const Buffer<uint> colors(gpu, "developed film", count);
-    const Run sum = total();
-    Recording recording(gpu);
-    recording.run(kernel, count, {sum.sums, colors, count, std::exp2(exposure) / float(passCount())});
-    recording.submit();
-    return colors.download();
-}
-
-std::vector<Pixel> Film::download() {
-    const double n = passCount();
+std::vector<Pixel> Film::download() const {
+    const uint batch = batches().size;
+    std::vector<Total> totals(count);
+    for (std::size_t i = 0; i < runs.size(); i++) {
+        const std::vector<PixelSum> run = sums(i);
+        for (uint p = 0; p < count; p++) totals[p].add(run[p], runs[i].passes, batch);
+    }
     std::vector<Pixel> pixels;
     pixels.reserve(count);
-    for (const PixelSum& pixel : total().sums.download()) {
-        Pixel& mean = pixels.emplace_back(Pixel{pixel.sum, pixel.deviation});
-        for (vec3& layer : mean.mean.layers) layer = vec3(glm::dvec3(layer) / n);
-        mean.mean.albedo = vec3(glm::dvec3(pixel.sum.albedo) / n);
-        mean.mean.normal = vec3(glm::dvec3(pixel.sum.normal) / n);
-        mean.mean.depth = float(double(pixel.sum.depth) / n);
-        mean.mean.covered = float(double(pixel.sum.covered) / n);
-    }
+    for (const Total& total : totals) pixels.push_back(total.pixel(passCount(), batches().count));
     return pixels;
 }
 

@@ -2,18 +2,21 @@
 #pragma once
 #include "gpu/recording.h"
 #include "render/pass_runs.h"
+#include "render/pixel.h"
+#include <array>
 
 namespace vkpm {
 
 /// Passes come in ascending order, or as runs that an earlier film had; the same passes give the same bits either way.
 class Film {
 public:
-    Film(Gpu& gpu, uvec2 size);
+    /// A film has the columns that the features say, and takes samples that have them.
+    Film(Gpu& gpu, uvec2 size, const Features& features = {});
 
     /// Makes room for a pass, the one after the last.
     void begin(uint pass);
-    /// Takes the pass's samples of pixels first .. first + count - 1.
-    void add(const Buffer<Sample>& samples, uint first, uint count);
+    /// Takes the pass's samples of pixels first .. first + count - 1; a column of the samples is `stride` long.
+    void add(const Buffer<float>& samples, uint stride, uint first, uint count);
     /// Ends the pass.
     void end();
 
@@ -21,34 +24,34 @@ public:
     void restore(PassRange passes, std::span<const PixelSum> sums);
     std::size_t runCount() const { return runs.size(); }
     PassRange run(std::size_t index) const { return runs[index].passes; }
-    std::vector<PixelSum> sums(std::size_t index) const { return runs[index].sums.download(); }
+    std::vector<PixelSum> sums(std::size_t index) const;
 
     /// The passes taken so far.
     PassRange passes() const;
-    uint passCount() const { return passes().end - passes().begin; }
+    uint passCount() const { return length(passes()); }
+    /// By which noise is judged.
+    Batches batches() const;
 
-    /// 8-bit sRGB colours of the beauty under an exposure in stops, row 0 on top.
-    std::vector<uint> develop(float exposure);
-    /// The means of all passes.
-    std::vector<Pixel> download();
+    /// The means of all passes, and their noise.
+    std::vector<Pixel> download() const;
     /// Samples that were not finite, by layer.
     std::array<std::uint64_t, LAYER_COUNT> nonfinite() const;
 
 private:
     struct Run {
         PassRange passes;
-        Buffer<PixelSum> sums;
+        Buffer<float> sums; // [column][pixel]
     };
 
     Run& append(PassRange passes);
     void joinLast();
-    void addTo(Run& run, const Run& other);
-    Run total();
+    std::vector<PassRange> ranges() const;
 
     Gpu& gpu;
     uint count;
+    Columns columns;
     std::vector<Run> runs; // adjacent, ascending
-    Buffer<PixelSum> spare;
+    Buffer<float> spare;
     Buffer<Status> status;
     Kernel<FilmArgs> film;
     Kernel<JoinArgs> join;

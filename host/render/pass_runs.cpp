@@ -31,4 +31,31 @@ std::size_t mostRuns(uint passes) {
     return most;
 }
 
+JoinWeights joinWeights(PassRange a, PassRange b) {
+    const float m = static_cast<float>(length(a)), n = static_cast<float>(length(b));
+    const float batches = m / (m + n); // m n / (m + n), in batches of n passes
+    return {.perPass = m > 0 ? 1 / m : 0, .perOtherPass = 1 / n, .fine = n > 1 ? float(siblings) * batches : 0, .coarse = batches, .grows = length(a) == length(b)};
+}
+
+/// The greatest node of the tree that has no more passes.
+static uint nodeWithin(uint passes) {
+    std::uint64_t node = 1;
+    while (siblings * node <= passes) node *= siblings;
+    return static_cast<uint>(node);
+}
+
+uint coarseBatch(PassRange run) {
+    const uint node = nodeWithin(length(run));
+    return node == length(run) ? std::max<uint>(node / siblings, 1) : node;
+}
+
+Batches batchesOf(std::span<const PassRange> runs) {
+    uint passes = 0;
+    for (const PassRange run : runs) passes += length(run);
+    const uint size = std::max<uint>(nodeWithin(passes) / siblings, 1);
+    uint count = 0;
+    for (const PassRange run : runs) count += std::max(length(run) / size, 1u);
+    return {size, count};
+}
+
 } // namespace vkpm

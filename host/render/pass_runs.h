@@ -2,8 +2,11 @@
 #pragma once
 #include "shared.h"
 #include <cstddef>
+#include <span>
 
 namespace vkpm {
+
+inline uint length(PassRange passes) { return passes.end - passes.begin; }
 
 /// Passes form a tree: four siblings to a parent, each sum that of its children from left to right. A run is the sum of
 /// the first one, two or three children of a node. Joins the run `b` to the run `a` if b is the child that comes next; which
@@ -12,5 +15,18 @@ bool joins(PassRange a, PassRange b);
 
 /// The most runs that a film of the passes from 0 on holds at a time; a pass that joins the last run needs none of its own.
 std::size_t mostRuns(uint passes);
+
+/// How to join b, or its first passes, to a, which may be empty.
+JoinWeights joinWeights(PassRange a, PassRange b);
+
+/// Passes of the batches that a run's COARSE deviations are about; those of its FINE ones are a quarter of that.
+uint coarseBatch(PassRange run);
+
+/// The batches by which the spread of a mean over runs of passes is judged: four to fifteen whole ones, and what is left over.
+struct Batches {
+    uint size;  // passes in a batch, a power of four
+    uint count; // with a part of one for each run that is less
+};
+Batches batchesOf(std::span<const PassRange> runs);
 
 } // namespace vkpm

@@ -18,7 +18,7 @@ const float causticPhotonsPerDisc = 10;
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
     : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      camera(gpu, scene, sceneHas, settings, waves.camera), film(gpu, settings.size) {
+      camera(gpu, scene, sceneHas, settings, waves.camera), film(gpu, settings.size, sceneHas) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
         stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
@@ -67,7 +67,7 @@ void Renderer::renderPass(uint pass) {
     for (uint first = 0; first < pixels; first += camera.capacity()) {
         const uint count = std::min(camera.capacity(), pixels - first);
         const RayCounts rays = camera.trace(pass, first, count, maps);
-        film.add(camera.samples, first, count);
+        film.add(camera.samples, camera.capacity(), first, count);
         cameraRays.paths += rays.paths;
         cameraRays.shadow += rays.shadow;
     }

@@ -176,7 +176,7 @@ std::string Reader::text() const {
     return value->get<std::string>();
 }
 
-std::size_t Reader::choice(std::initializer_list<std::string_view> names) const {
+std::size_t Reader::choice(const std::vector<std::string_view>& names) const {
     const std::vector<std::string> words(names.begin(), names.end());
     const std::string word = value->is_string() ? value->get<std::string>() : "";
     const auto found = std::ranges::find(words, word);

@@ -2,7 +2,6 @@
 #pragma once
 #include "shared.h"
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -57,7 +56,7 @@ public:
     vec3 color(Range range) const; // three numbers, or one for a grey
     bool boolean() const;
     std::string text() const;
-    std::size_t choice(std::initializer_list<std::string_view> names) const; // index of the name found
+    std::size_t choice(const std::vector<std::string_view>& names) const; // index of the name found
     bool isNumber() const { return value->is_number(); }
 
     std::string describe() const; // the value found, in words

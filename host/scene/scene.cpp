@@ -15,19 +15,48 @@ Camera pinholeCamera(const View& view, uvec2 size) {
     return {view.origin, vec3{forward}, vec3{right * (tangent * aspect)}, vec3{up * tangent}};
 }
 
-/// What settings alone decide; the same for the general program.
-static void chooseMaps(Features& features, const Settings& settings) {
+void askFor(uint layers, Features& features) {
+    features.hasEmissionLayer &= layers >> LAYER_EMISSION;
+    features.hasDirectLayer &= layers >> LAYER_DIRECT;
+    features.hasSpecularLayer &= layers >> LAYER_SPECULAR;
+    features.hasCausticLayer &= layers >> LAYER_CAUSTIC;
+    features.hasIndirectLayer &= layers >> LAYER_INDIRECT;
+    features.hasAlbedo &= layers >> ASK_ALBEDO;
+    features.hasNormal &= layers >> ASK_NORMAL;
+    features.hasDepth &= layers >> ASK_DEPTH;
+    features.hasNoise &= layers >> ASK_NOISE;
+}
+
+bool asksLights(const Features& f, const Settings& settings) {
+    return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse && (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+}
+
+bool asksMaps(const Features& f) { return f.hasGlobalMap || f.hasCausticMap; }
+
+/// Leaves out the layers that cannot have any light and the maps that no layer needs, by what the settings ask for and by
+/// materials that the features know: for the general program, all.
+static void chooseLayers(Features& f, const Settings& settings) {
     const bool photon = settings.integrator == INTEGRATOR_PHOTON;
+    const bool path = settings.integrator == INTEGRATOR_PATH;
     const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
-    features.hasGlobalMap &= (photon || (map && !settings.showCaustic)) && settings.photons > 0;
-    features.hasCausticMap &= (photon || (map && settings.showCaustic)) && settings.causticPhotons > 0;
+    const bool specular = f.hasMirror || f.hasGlass;
+    const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && f.hasDiffuse;
+    const bool caustic = (photon || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
+    askFor(settings.layers, f);
+    f.hasEmissionLayer &= !map;
+    f.hasDirectLayer &= !map && f.hasDiffuse;
+    f.hasSpecularLayer &= specular;
+    f.hasCausticLayer &= caustic || (path && f.hasDiffuse && specular);
+    f.hasIndirectLayer &= global || (path && f.hasDiffuse);
+    f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
+    f.hasCausticMap = caustic && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
 }
 
 Features sceneFeatures(const Scene& scene, const Settings& settings) {
     Features features;
     if (settings.allFeatures) {
         features.stackSize = std::max(features.stackSize, scene.stackSize);
-        chooseMaps(features, settings);
+        chooseLayers(features, settings);
         return features;
     }
     const auto anyMaterial = [&](auto&& is) {
@@ -47,8 +76,8 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
     features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
-    features.hasCausticMap = features.hasMirror || features.hasGlass;
-    chooseMaps(features, settings);
+    features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
+    chooseLayers(features, settings);
     features.hasNearest = settings.nearest > 0;
     features.hasRadiusField = features.hasCausticMap && !settings.causticRadius && settings.nearest == 0;
     features.densityKernel = settings.kernel;

@@ -49,7 +49,14 @@ Scene loadScene(const std::filesystem::path& file);
 /// The pinhole camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);
 
-/// What the scene has, as specialization constants; settings add integrator, kernel and Fresnel.
+/// What the scene has, as specialization constants; settings add integrator, kernel, Fresnel and the layers asked for.
 Features sceneFeatures(const Scene& scene, const Settings& settings);
+
+/// Leaves out the layers that nobody asked for; `layers` are bits by place in layerNames.
+void askFor(uint layers, Features& features);
+
+/// Whether any camera path asks a light for its direct part, whether any asks a photon map.
+bool asksLights(const Features& features, const Settings& settings);
+bool asksMaps(const Features& features);
 
 } // namespace vkpm

@@ -1,9 +1,15 @@
 /// How a scene is rendered: defaults, overridden first by the scene file, then by the command line.
 #pragma once
 #include "shared.h"
+#include <array>
 #include <optional>
 
 namespace vkpm {
+
+/// Layers of a picture that may be asked for, bit by bit; the first are those of LAYER_EMISSION and so on.
+const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect", "albedo", "normal", "depth", "noise"};
+const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8;
+const uint allLayers = (1u << layerNames.size()) - 1;
 
 struct Settings {
     uvec2 size{512, 512};                // pixels
@@ -20,6 +26,7 @@ struct Settings {
     uint integrator = INTEGRATOR_PHOTON; // INTEGRATOR_...
     bool showCaustic = false;            // photon-map: the caustic map in place of the global one
     bool showPoints = false;             // photon-map: photons as points in place of the estimate
+    uint layers = allLayers;             // bits by place in layerNames; what is not asked for is not rendered
     bool allFeatures = false;            // the general program in place of one compiled for the scene; the same picture
     float exposure = 0;                  // stops, for the PNG alone
 };

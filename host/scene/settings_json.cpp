@@ -17,6 +17,10 @@ std::string settingsJson(const Settings& s) {
                                 {"kernel", kernels[s.kernel]},
                                 {"fresnel", s.schlick ? "schlick" : "exact"},
                                 {"seed", s.seed}};
+    if (s.layers != allLayers) {
+        for (uint i = 0; i < layerNames.size(); i++)
+            if (s.layers >> i & 1) json["layers"].push_back(layerNames[i]);
+    }
     if (s.radius) json["radius"] = *s.radius;
     if (s.causticRadius) json["causticRadius"] = *s.causticRadius;
     if (s.integrator == INTEGRATOR_PHOTON_MAP) {

@@ -1,4 +1,4 @@
-// Density estimates from the k nearest photons; k stands in place of the layer.
+// Density estimates from the k nearest photons; k stands in place of the column.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
@@ -7,4 +7,4 @@
 #include "grid.glsl"
 #include "density.glsl"
 
-MAP(Query, vec3, estimateWithin(args.photons, x, nearestRadius(args.photons, x, x.layer)))
+MAP(Query, vec3, estimateWithin(args.photons, x, nearestRadius(args.photons, x, x.column)))

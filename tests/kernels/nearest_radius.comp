@@ -1,4 +1,4 @@
-// Distances of the k-th nearest photons; k stands in place of the layer.
+// Distances of the k-th nearest photons; k stands in place of the column.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
@@ -7,4 +7,4 @@
 #include "grid.glsl"
 #include "density.glsl"
 
-MAP(Query, float, nearestRadius(args.photons, x, x.layer))
+MAP(Query, float, nearestRadius(args.photons, x, x.column))

@@ -1,0 +1,30 @@
+/// A pixel as the host knows it: of a column that a render does without it has zeros.
+#pragma once
+#include "shared.h"
+
+namespace vkpm {
+
+/// What passes gave a pixel: radiance by layer, and the first surface seen.
+struct Sample {
+    vec3 layers[LAYER_COUNT];
+    vec3 albedo;
+    vec3 normal;
+    float depth;   // distance along the camera's axis
+    float covered; // passes that saw a surface
+};
+
+/// Sums over a run of passes, with the squared deviations between its batches; in the order of COLUMNS with everything on.
+struct PixelSum {
+    Sample sum;
+    vec3 fine;
+    vec3 coarse;
+};
+const std::size_t PIXEL_FLOATS = sizeof(PixelSum) / sizeof(float);
+
+/// What a pixel shows.
+struct Pixel {
+    Sample mean; // over passes
+    vec3 noise;  // standard error of the mean of beauty
+};
+
+} // namespace vkpm

@@ -1,0 +1,40 @@
+// Columns of samples and of their sums: which there are, reading them, and adding to them.
+
+// Whether a layer is rendered at all.
+bool hasLayer(uint layer) {
+    switch (layer) {
+    case LAYER_EMISSION: return hasEmissionLayer != 0u;
+    case LAYER_DIRECT: return hasDirectLayer != 0u;
+    case LAYER_SPECULAR: return hasSpecularLayer != 0u;
+    case LAYER_CAUSTIC: return hasCausticLayer != 0u;
+    default: return hasIndirectLayer != 0u;
+    }
+}
+
+// The first of a layer's three columns.
+uint layerColumn(uint layer) {
+    switch (layer) {
+    case LAYER_EMISSION: return COLUMN_EMISSION;
+    case LAYER_DIRECT: return COLUMN_DIRECT;
+    case LAYER_SPECULAR: return COLUMN_SPECULAR;
+    case LAYER_CAUSTIC: return COLUMN_CAUSTIC;
+    default: return COLUMN_INDIRECT;
+    }
+}
+
+// What three columns, the first of them given, hold at a place; `stride` is the length of a column.
+vec3 loadColumns(floatPtr columns, uint stride, uint column, uint place) {
+    uint at = column * stride + place;
+    return vec3(columns.at[at], columns.at[at + stride], columns.at[at + 2u * stride]);
+}
+
+void storeColumns(floatPtr columns, uint stride, uint column, uint place, vec3 value) {
+    uint at = column * stride + place;
+    columns.at[at] = value.x;
+    columns.at[at + stride] = value.y;
+    columns.at[at + 2u * stride] = value.z;
+}
+
+void addToColumns(floatPtr columns, uint stride, uint column, uint place, vec3 value) {
+    storeColumns(columns, stride, column, place, loadColumns(columns, stride, column, place) + value);
+}
