@@ -1,5 +1,6 @@
 /// vkpm bench: how fast rays, sorting, gathers and memory are, each beside a yardstick measured in the same run.
 #include "bench/bench_scene.h"
+#include "bench/features.h"
 #include "bench/gather.h"
 #include "bench/memory.h"
 #include "bench/rays.h"
@@ -44,7 +45,39 @@ static void printTable(const nlohmann::ordered_json& about, const std::vector<Me
                "vkpm by the kernels' time stamps, yardsticks by the wall clock, on all threads.\n");
 }
 
+static nlohmann::ordered_json gainJson(const FeatureGain& gain) {
+    const auto json = [](const ProgramCost& c) {
+        return nlohmann::ordered_json{{"setup_seconds", c.setup}, {"first_pass_seconds", c.firstPass}, {"pass_seconds", c.pass}, {"device_bytes", c.bytes}};
+    };
+    return {{"scene", gain.scene}, {"specialised", json(gain.special)}, {"general", json(gain.general)}};
+}
+
+static void printGain(const FeatureGain& gain) {
+    const auto row = [&](const char* what, double special, double general, const char* unit) {
+        fmt::print("{:<14} {:<24} {:>9.3f} {:>9.3f} {:<4} {:>7.2f}\n", gain.scene, what, special, general, unit, special / general);
+    };
+    row("setup", gain.special.setup, gain.general.setup, "s");
+    row("setup and first pass", gain.special.firstPass, gain.general.firstPass, "s");
+    row("a later pass", gain.special.pass, gain.general.pass, "s");
+    row("device memory", gain.special.bytes / 1048576, gain.general.bytes / 1048576, "MiB");
+}
+
+static int benchFeatures(const Options& options) {
+    switchOffShaderCaches();
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    if (!options.json) fmt::print("{:<14} {:<24} {:>9} {:>9} {:<4} {:>7}\n", "scene", "", "special", "general", "", "ratio");
+    for (const auto& scene : options.parts) {
+        const FeatureGain gain = measureFeatures(scene, options.device);
+        if (!options.json) printGain(gain);
+        all.push_back(gainJson(gain));
+    }
+    if (options.json) fmt::print("{}\n", all.dump(2));
+    else fmt::print("\nMedians of runs in turns, all kernels compiled anew in each, at the scenes' own settings.\n");
+    return 0;
+}
+
 int bench(const Options& options) {
+    if (options.benchFeatures) return benchFeatures(options);
     const Scene scene = options.scene.empty() ? benchScene() : loadScene(options.scene);
     Gpu gpu(options.device);
     const nlohmann::ordered_json about{{"device", gpu.info().name},

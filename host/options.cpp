@@ -102,6 +102,8 @@ const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they tak
   devices [--json]               list the Vulkan devices and what each lacks
   bench [--json] [--scene FILE] [--device INDEX|NAME]
                                  measure rays, sort, gather and memory rates
+  bench --features SCENE.json... [--json] [--device INDEX|NAME]
+                                 what leaving out saves: start-up, time, memory
 
 Counts may be written as 200000 or 2e5.
 
@@ -198,10 +200,17 @@ Options parseDevices(std::span<const std::string> arguments) {
 
 Options parseBench(std::span<const std::string> arguments) {
     Options options;
-    Parser parser("Measure rays, sort, gather and memory rates.", "vkpm bench [options]");
+    Parser parser("Measure rays, sort, gather and memory rates; or what a program compiled for a scene saves.",
+                  "vkpm bench [options], vkpm bench --features SCENE.json...");
     parser.flag("--json", "as JSON", options.json);
     parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)",
                [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.flag("--features", "start-up, time and memory of the program for each scene against the general one's", options.benchFeatures);
+    parser.files("files", "scenes for --features", [&](auto& values) {
+        if (options.benchFeatures && values.empty()) throw InputError("bench: --features: found no scene; allowed: one or more, as in vkpm bench --features scenes/box.json");
+        if (!options.benchFeatures && !values.empty()) throw InputError(fmt::format("bench: found \"{}\"; allowed: --scene {}", values[0], values[0]));
+        for (const std::string& value : values) options.parts.push_back(sceneOf("--features", value));
+    });
     addDevice(parser, options);
     options.text = parser.parse(arguments);
     if (options.text.empty()) options.command = Command::Bench;

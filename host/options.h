@@ -16,7 +16,8 @@ struct Options {
     std::string text;             // Print: the help or the version, for stdout
     std::filesystem::path scene;  // bench: empty for its own scene
     std::filesystem::path output; // render, merge: always set, ends in .exr
-    std::vector<std::filesystem::path> parts; // merge
+    std::vector<std::filesystem::path> parts; // merge; bench: scenes
+    bool benchFeatures = false;               // bench: what leaving out buys
     bool part = false;                        // merge: into what is a part itself
     std::optional<std::filesystem::path> stats;
     std::optional<std::filesystem::path> log;

@@ -36,11 +36,11 @@ std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool 
     return GatherRadii{radius(stages->field->smallest), radius(stages->field->median), radius(stages->field->greatest), given};
 }
 
-/// "hasGlass: the scene has no glass", a line for each feature that the render does without.
-std::vector<std::string> leftOut(const Features& features, const Settings& settings) {
+/// "hasGlass: the scene has no glass", a line for each feature that the render needs, or does without.
+std::vector<std::string> manifest(const Features& features, const Settings& settings, bool needed) {
     std::vector<std::string> lines;
     for (const FeatureReason& line : explainFeatures(features, settings))
-        if (!line.needed) lines.push_back(line.name + ": " + line.reason);
+        if (line.needed == needed) lines.push_back(line.name + ": " + line.reason);
     return lines;
 }
 
@@ -170,7 +170,8 @@ void Job::checkpoint() {
 void Job::save() {
     std::map<std::string, std::string> attributes = identity;
     attributes["device"] = device;
-    attributes["leftOut"] = fmt::format("{}", fmt::join(leftOut(renderer.features(), settings), "; "));
+    attributes["needed"] = fmt::format("{}", fmt::join(manifest(renderer.features(), settings, true), "; "));
+    attributes["leftOut"] = fmt::format("{}", fmt::join(manifest(renderer.features(), settings, false), "; "));
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(begin));
@@ -190,7 +191,8 @@ Statistics Job::statistics() const {
     s.causticRadii = causticRadii();
     s.radiusFactor = radiusFactor(renderer.film.passes().end - 1, settings.alpha);
     s.features = renderer.features();
-    s.leftOut = leftOut(renderer.features(), settings);
+    s.needed = manifest(renderer.features(), settings, true);
+    s.leftOut = manifest(renderer.features(), settings, false);
     s.nonfinite = nonfinite();
     s.setupSeconds = std::chrono::duration<double>(begin - start).count();
     s.renderSeconds = renderSeconds;

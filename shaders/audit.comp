@@ -31,13 +31,16 @@ uint result(uint index) {
     case AUDIT_LOOP: return longLoop(args.trips) + index;
     case AUDIT_DIVERGENT: return longLoop(args.trips - 16u * index);
     case AUDIT_SHARED: return exchange[GROUP - 1u - gl_LocalInvocationIndex] * 3u + 1u;
-    case AUDIT_WIDE: return index ^ 0x5bd1e995u;
     default: return floats(index);
     }
 }
 
 void main() {
     uint index = threadIndex();
+    if (args.test == AUDIT_WIDE) { // one result a group
+        if (groupIndex() < args.count && gl_LocalInvocationIndex == GROUP - 1u) args.results.at[groupIndex()] = index ^ 0x5bd1e995u;
+        return;
+    }
     exchange[gl_LocalInvocationIndex] = index;
     barrier();
     if (index < args.count) args.results.at[index] = result(index);

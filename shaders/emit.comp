@@ -8,6 +8,7 @@
 #include "offset.glsl"
 #include "light.glsl"
 #include "targets.glsl"
+#include "features.glsl"
 
 ARGS(EmitArgs)
 
@@ -20,6 +21,7 @@ void main() {
     // A light in proportion to its flux, a point on it, and the side if there are two.
     vec2 choice = sample2(s, 0u);
     Light light = LightPtr(scene.lights).at[chooseLight(scene, choice.x)];
+    requireLight(scene, light);
     LightPoint point = sampleLight(light, sample2(s, 1u));
     if (isTwoSided(light) && choice.y < 0.5) point.normal = -point.normal;
 

@@ -37,7 +37,7 @@ float logRadius(vec3 position) {
 }
 
 void main() {
-    uint i = threadIndex();
+    uint i = threadIndex() * args.stride;
     if (i >= args.count) return;
     vec3 position = PhotonPtr(args.map.photons).at[i].position;
     float value = clamp(-logRadius(position), 0.0, float(args.map.levels));

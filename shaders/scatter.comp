@@ -10,6 +10,7 @@
 #include "offset.glsl"
 #include "surface.glsl"
 #include "material.glsl"
+#include "features.glsl"
 
 ARGS(ScatterArgs)
 
@@ -59,6 +60,7 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
+    requireSurface(scene, hit.primitive, material);
     uint fate;
     if (!isDiffuse(material)) {
         fate = scatterAtSpecular(path, material, surface, s);

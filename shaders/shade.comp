@@ -13,6 +13,7 @@
 #include "material.glsl"
 #include "light.glsl"
 #include "columns.glsl"
+#include "features.glsl"
 
 ARGS(ShadeArgs)
 
@@ -49,6 +50,7 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
     uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return false;
     Light light = LightPtr(scene.lights).at[chooseLight(scene, bounceSample(s, 0u).x)];
+    requireLight(scene, light);
     LightPoint point = sampleLight(light, bounceSample(s, 1u));
     vec3 toLight = point.position - surface.position;
     float distance2 = dot(toLight, toLight);
@@ -139,6 +141,8 @@ uint shade(uint slot) {
     if (hit.primitive == NONE) return 0u;
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
+    requireSurface(scene, hit.primitive, material);
+    if (checksFeatures != 0u) require(scene, chosen() != args.integrator, 0u, id_integrator);
     float travelled = path.travelled + hit.t;
     if (args.bounce == 0u) {
         if (hasAlbedo != 0u) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);

@@ -75,7 +75,8 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(26, hasNormal, 1)                                                                                                \
     X(27, hasDepth, 1)                                                                                                 \
     X(28, hasNoise, 1)                                                                                                 \
-    X(29, hasDiffuse, 1)
+    X(29, hasDiffuse, 1)                                                                                               \
+    X(30, checksFeatures, 0) // kernels report what they meet and are without, see features.glsl
 
 #ifdef __cplusplus
 struct Features {
@@ -83,7 +84,13 @@ struct Features {
     FEATURES(X)
 #undef X
 };
+#define X(id, name, value) const uint id_##name = id;
+FEATURES(X)
+#undef X
 #else
+#define X(id, name, value) const uint id_##name = id;
+FEATURES(X)
+#undef X
 #define X(id, name, value) layout(constant_id = id) const uint name = value;
 FEATURES(X)
 #undef X
@@ -196,6 +203,7 @@ struct DeviceScene {
     ADDRESS(Light) lights;
     ADDRESS(float) lightCdf; // upper ends, the last is 1
     ADDRESS(Target) targets;
+    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
     uint triangleCount;
     uint lightCount;
     uint targetCount;
@@ -429,6 +437,7 @@ struct PilotArgs {
     PhotonMap map;
     PTR(uint) sums; // by cell of the field: negative logarithms, photons
     uint count;
+    uint stride; // one photon of so many is looked at
     float perDisc; // photons wanted
 };
 

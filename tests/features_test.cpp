@@ -36,6 +36,29 @@ TEST(Features, ShippedScenesRenderTheSameBits) {
     }
 }
 
+// Layers that somebody asked for are those of a render of all, and the others are black.
+TEST(Features, LayersAskedForAreThoseOfTheWhole) {
+    for (const char* name : {"box", "ring", "pool"})
+        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_PHOTON_MAP}) {
+            const Scene scene = shippedScene(name);
+            Settings settings = scene.settings;
+            settings.size = {24, 16};
+            settings.photons = settings.causticPhotons = 1000;
+            settings.integrator = integrator;
+            const std::vector<Pixel> whole = renderWith(scene, settings, false);
+            for (const uint layers : {1u << LAYER_CAUSTIC, 1u << LAYER_INDIRECT, 1u << LAYER_SPECULAR, 1u << LAYER_DIRECT, 1u << LAYER_EMISSION | 1u << LAYER_CAUSTIC, 1u << ASK_ALBEDO | 1u << ASK_DEPTH}) {
+                settings.layers = layers;
+                const std::vector<Pixel> part = renderWith(scene, settings, false);
+                for (std::size_t i = 0; i < whole.size(); i++) {
+                    for (uint layer = 0; layer < LAYER_COUNT; layer++)
+                        ASSERT_EQ(part[i].mean.layers[layer], layers >> layer & 1 ? whole[i].mean.layers[layer] : vec3(0)) << name << " " << layer;
+                    ASSERT_EQ(part[i].mean.albedo, layers >> ASK_ALBEDO & 1 ? whole[i].mean.albedo : vec3(0));
+                    ASSERT_EQ(part[i].mean.depth, layers >> ASK_DEPTH & 1 ? whole[i].mean.depth : 0);
+                }
+            }
+        }
+}
+
 // Many photons: what one in a million meets, such as a grazing hit, is in few pictures.
 TEST(Features, ShippedScenesEmitTheSamePhotons) {
     for (const char* name : {"box", "ring", "glass", "pool"}) {
@@ -44,7 +67,7 @@ TEST(Features, ShippedScenesEmitTheSamePhotons) {
         general.allFeatures = true;
         const UploadedScene uploaded(testGpu(), scene, general);
         const auto trace = [&](MapKind kind, const Settings& settings) {
-            PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(scene, settings), kind, 3'000'000, 1, 1u << 17);
+            PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(scene, settings), kind, 2'000'000, 0, 1u << 17);
             const PhotonLedger ledger = tracing.trace(11);
             return tracing.photons.download(ledger.stored);
         };
@@ -53,6 +76,41 @@ TEST(Features, ShippedScenesEmitTheSamePhotons) {
             ASSERT_EQ(special.size(), all.size()) << name;
             EXPECT_EQ(std::memcmp(special.data(), all.data(), all.size() * sizeof(Photon)), 0) << name;
         }
+    }
+}
+
+// Renders a pass without a feature that the scene needs, with checks.
+void renderWithout(const Scene& scene, uint Features::* feature) {
+    Settings settings = scene.settings;
+    settings.size = {64, 64};
+    Features features = sceneFeatures(scene, settings);
+    features.checksFeatures = 1;
+    if (feature) features.*feature = 0;
+    Renderer(testGpu(), scene, settings, features).renderPass(0);
+}
+
+TEST(Features, LeavingOutWhatASceneNeedsIsFoundOut) {
+    for (const char* name : {"box", "glass", "pool"}) {
+        const Scene scene = shippedScene(name);
+        const Features has = sceneFeatures(scene, scene.settings);
+        EXPECT_NO_THROW(renderWithout(scene, nullptr)) << name;
+        uint tried = 0;
+        for (const auto& [label, feature] : std::initializer_list<std::pair<const char*, uint Features::*>>{
+                 {"hasTriangles", &Features::hasTriangles}, {"hasSpheres", &Features::hasSpheres}, {"hasSmoothNormals", &Features::hasSmoothNormals},
+                 {"hasDiffuse", &Features::hasDiffuse}, {"hasMirror", &Features::hasMirror}, {"hasGlass", &Features::hasGlass}, {"hasTint", &Features::hasTint},
+                 {"hasExactFresnel", &Features::hasExactFresnel}, {"hasManyLights", &Features::hasManyLights},
+                 {"hasRectangleLights", &Features::hasRectangleLights}, {"hasTriangleLights", &Features::hasTriangleLights},
+                 {"hasSphereLights", &Features::hasSphereLights}, {"hasTwoSidedLights", &Features::hasTwoSidedLights}}) {
+            if (!(has.*feature)) continue;
+            tried++;
+            try {
+                renderWithout(scene, feature);
+                ADD_FAILURE() << name << " renders without " << label;
+            } catch (const std::logic_error& error) {
+                EXPECT_NE(std::string(error.what()).find(label), std::string::npos) << error.what();
+            }
+        }
+        EXPECT_GE(tried, 3u) << name;
     }
 }
 
@@ -89,6 +147,7 @@ public:
         s.showCaustic = maybe();
         s.showPoints = s.integrator == INTEGRATOR_PHOTON_MAP && maybe();
         s.seed = random.bits();
+        if (random.bits() % 4 == 0) s.layers = 1 + random.bits() % allLayers;
         if (maybe()) s.radius = random.between(0.01f, 0.3f);
         if (maybe()) s.causticRadius = random.between(0.01f, 0.3f);
         return s;

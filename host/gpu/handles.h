@@ -1,7 +1,7 @@
 /// The Vulkan handles behind Gpu; included by the sources of host/gpu alone.
 #pragma once
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
-#include "gpu/gpu.h"
+#include "gpu/kernel.h"
 #include <functional>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -20,6 +20,7 @@ struct Gpu::Handles {
     float nanosecondsPerTick = 0;
     bool mapsDeviceMemory = false; // the host can write device memory directly
     DeviceInfo info;
+    std::map<std::string, std::weak_ptr<const RawKernel::Handles>> kernels; // by name and features
 
     /// Submits recorded commands and waits until they are done.
     void submitAndWait(const vk::raii::CommandBuffer& commands) const;

@@ -12,8 +12,9 @@ static const std::array featureEntries{
 #undef X
 };
 
-RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) : handles(std::make_unique<Handles>()) {
-    const auto& device = gpu.handles->device;
+static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name, const Features& features, std::uint32_t argsBytes) {
+    auto handles = std::make_shared<RawKernel::Handles>();
+    handles->name = name;
     const auto words = findSpirv(name);
     attempt("creating the kernel " + name, "", [&] {
         const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()});
@@ -25,10 +26,13 @@ RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::
                                                       .pName = "main", .pSpecializationInfo = &constants};
         handles->pipeline = device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = *handles->layout});
     });
-    handles->name = std::move(name);
+    return handles;
 }
 
-RawKernel::RawKernel(RawKernel&&) noexcept = default;
-RawKernel::~RawKernel() = default;
+RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {
+    std::weak_ptr<const Handles>& known = gpu.handles->kernels[name + std::string(reinterpret_cast<const char*>(&features), sizeof(features))];
+    handles = known.lock();
+    if (!handles) known = handles = compile(gpu.handles->device, name, features, argsBytes);
+}
 
 } // namespace vkpm

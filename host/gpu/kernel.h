@@ -6,15 +6,14 @@
 
 namespace vkpm {
 
-/// A compiled pipeline; its push constants are `argsBytes` bytes.
+/// A compiled pipeline; its push constants are `argsBytes` bytes. The same kernel with the same features is compiled once for
+/// a device, and shared as long as anyone has it.
 class RawKernel {
 public:
     RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes);
-    RawKernel(RawKernel&&) noexcept;
-    ~RawKernel();
 
     struct Handles;
-    std::unique_ptr<Handles> handles;
+    std::shared_ptr<const Handles> handles;
 };
 
 /// The kernel of shaders/<name>.comp, whose push constants are an Args.

@@ -54,6 +54,7 @@ std::string statisticsJson(const Statistics& statistics) {
                         {"factor", statistics.radiusFactor}};
     object["memory"] = {{"device_bytes", statistics.deviceBytes}, {"buffers", sums(statistics.buffers)}};
     object["features"] = featuresJson(statistics.features);
+    object["needed"] = statistics.needed;
     object["left_out"] = statistics.leftOut;
     object["nonfinite"] = statistics.nonfinite;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -45,7 +45,8 @@ struct Statistics {
     std::uint64_t deviceBytes = 0;
     std::vector<std::pair<std::string, std::uint64_t>> buffers{}; // bytes; a name that occurs twice is summed
     Features features{};
-    std::vector<std::string> leftOut{}; // what the render does without, and why
+    std::vector<std::string> needed{};  // what the render has, and why
+    std::vector<std::string> leftOut{}; // what it does without, and why
     std::uint64_t nonfinite = 0;      // samples that count as black
 };
 

@@ -1,5 +1,6 @@
 /// Upload of a scene.
 #include "render/device_scene.h"
+#include <stdexcept>
 
 namespace vkpm {
 
@@ -18,7 +19,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
     : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
       primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
-      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)) {
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0})) {
     const DeviceScene device{.nodes = nodes,
                              .leaves = leaves,
                              .primitives = primitives,
@@ -27,11 +28,21 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
                              .lights = lights,
                              .lightCdf = lightCdf,
                              .targets = targets,
+                             .missing = missing,
                              .triangleCount = scene.triangleCount,
                              .lightCount = static_cast<uint>(scene.lights.size()),
                              .targetCount = static_cast<uint>(scene.targets.size()),
                              .camera = pinholeCamera(scene.view, settings.size)};
     address = Buffer<DeviceScene>(gpu, "scene", std::span(&device, 1));
+}
+
+void UploadedScene::requireNothingMissing() const {
+    const uint bits = missing.read1();
+    std::string names;
+#define X(id, name, value) names += bits >> id & 1 ? " " #name : "";
+    FEATURES(X)
+#undef X
+    if (bits) throw std::logic_error("features were left out that the scene needs:" + names);
 }
 
 } // namespace vkpm

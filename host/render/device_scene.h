@@ -11,6 +11,9 @@ public:
     /// The camera is that of the scene's view for the film's size; glass reflects as the settings say.
     UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings);
 
+    /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
+    void requireNothingMissing() const;
+
     Buffer<DeviceScene> address;
 
 private:
@@ -22,6 +25,7 @@ private:
     Buffer<Light> lights;
     Buffer<float> lightCdf;
     Buffer<Target> targets;
+    Buffer<uint> missing;
 };
 
 } // namespace vkpm

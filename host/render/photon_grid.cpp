@@ -19,7 +19,10 @@ PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float rad
         arranged = {};
         arranged = Buffer<Photon>(gpu, name + " in cells", photons.size());
     }
-    if (cells.size() < mask + 2ull) cells = Buffer<uint>(gpu, name + " cells", mask + 2ull);
+    if (cells.size() != mask + 2ull) {
+        cells = {};
+        cells = Buffer<uint>(gpu, name + " cells", mask + 2ull);
+    }
 
     Recording recording(gpu);
     recording.run(keys, count, {photons, sort.keys, sort.values, count, cellsPerUnit, levels, mask});

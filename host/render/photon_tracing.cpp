@@ -24,9 +24,8 @@ PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const F
       paths(gpu, name + " paths", wave), hits(gpu, name + " hits", wave), counts(gpu, name + " counts", wave + 1ull),
       whole(gpu, name + " wave", 1), status(gpu, name + " status", 1), emit(gpu, "emit", features), traceKernel(gpu, "trace", features),
       scatter(gpu, "scatter", features), scan(gpu, "scan"), placeKernel(gpu, "place") {
-    const uint perPhoton = kind == MapKind::caustic ? 1 : 3; // to begin with
+    const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
     arrivals = Buffer<Arrival>(gpu, name + " arrivals", std::uint64_t(perPhoton) * wave);
-    photons = Buffer<Photon>(gpu, name + "s", std::uint64_t(perPhoton) * count);
 }
 
 void PhotonTracing::bounce(Recording& recording, uint pass, uint first, uint index) {
@@ -81,6 +80,10 @@ PhotonLedger PhotonTracing::attemptWave(uint pass, uint first, uint size, std::u
         arrivals = Buffer<Arrival>(gpu, name + " arrivals", ledger.stored + ledger.stored / 8);
         ledger = traceWave(pass, first, size);
     }
+    if (photons.size() == 0) { // about as many per photon as in the first wave
+        const double expected = 1.02 * double(ledger.stored) / size * count;
+        photons = Buffer<Photon>(gpu, name + "s", static_cast<std::uint64_t>(expected) + 1000);
+    }
     if (stored + ledger.stored <= photons.size()) place(stored, static_cast<uint>(ledger.stored), size);
     ledger.nonfinite = status.read1().nonfinite[NONFINITE_PHOTON];
     return ledger;
@@ -96,13 +99,15 @@ PhotonLedger PhotonTracing::attempt(uint pass) {
 }
 
 PhotonLedger PhotonTracing::trace(uint pass) {
-    PhotonLedger ledger = attempt(pass);
-    if (ledger.stored > photons.size()) {
+    if (held == pass) return heldLedger;
+    heldLedger = attempt(pass);
+    if (heldLedger.stored > photons.size()) {
         photons = {};
-        photons = Buffer<Photon>(gpu, name + "s", ledger.stored + ledger.stored / 8);
-        ledger = attempt(pass);
+        photons = Buffer<Photon>(gpu, name + "s", heldLedger.stored + heldLedger.stored / 8);
+        heldLedger = attempt(pass);
     }
-    return ledger;
+    held = pass;
+    return heldLedger;
 }
 
 } // namespace vkpm

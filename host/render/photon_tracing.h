@@ -2,6 +2,7 @@
 #pragma once
 #include "render/compaction.h"
 #include "render/device_scene.h"
+#include <optional>
 
 namespace vkpm {
 
@@ -27,7 +28,7 @@ class PhotonTracing {
 public:
     PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed, uint wave);
 
-    /// Fills `photons` with ledger.stored photons of a pass.
+    /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
     PhotonLedger trace(uint pass);
 
     Buffer<Photon> photons;
@@ -45,6 +46,8 @@ private:
     uint count;
     uint seed;
     uint wave;
+    std::optional<uint> held; // pass whose photons these are
+    PhotonLedger heldLedger;
     std::string name;
     Compaction compaction;
     Buffer<Path> paths;

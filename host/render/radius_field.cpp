@@ -11,14 +11,14 @@ const float cellsPerRadius = 2;
 
 RadiusField::RadiusField(Gpu& device) : gpu(device), pilotKernel(gpu, "pilot") {}
 
-void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc) {
+void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc, uint stride) {
     PhotonMap map = pilot;
     map.fieldPerUnit = cellsPerUnit = cellsPerRadius / pilot.radius;
     map.fieldMask = fieldSize - 1;
     const Buffer<uint> sums(gpu, "pilot sums", 2 * fieldSize);
     Recording recording(gpu);
     recording.clear(sums);
-    recording.run(pilotKernel, count, {map, sums, count, perDisc});
+    recording.run(pilotKernel, (count + stride - 1) / stride, {map, sums, count, stride, perDisc});
     recording.submit();
 
     // The mean of each cell; cells without photons stay unknown.
@@ -38,7 +38,7 @@ void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc) {
     greatest = known.back().first;
     uint before = 0;
     for (const auto& [logarithm, photons] : known)
-        if (before <= count / 2) median = logarithm, before += photons;
+        if (before <= count / stride / 2) median = logarithm, before += photons;
 }
 
 void RadiusField::apply(PhotonMap& map) const {

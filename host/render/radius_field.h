@@ -11,8 +11,8 @@ public:
     explicit RadiusField(Gpu& gpu);
 
     /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius, none
-    /// narrower than that over 2^levels.
-    void measure(const PhotonMap& pilot, uint count, float perDisc);
+    /// narrower than that over 2^levels. One photon of `stride` is looked at.
+    void measure(const PhotonMap& pilot, uint count, float perDisc, uint stride = 1);
     /// Makes gathers in a map use the field.
     void apply(PhotonMap& map) const;
 

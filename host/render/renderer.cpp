@@ -5,7 +5,9 @@
 
 namespace vkpm {
 
-const uint pilotPass = NONE; // no pass of a render
+// The pass that radii are measured in. A radius for each region follows the photons there, so that they must be others than
+// those of any pass of a render; one for all does not.
+const uint firstPass = 0, noPass = NONE;
 
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
@@ -16,7 +18,10 @@ const float globalPhotonsPerDisc = 20;
 const float causticPhotonsPerDisc = 10;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
-    : gpu(device), settings(set), sceneHas(sceneFeatures(input, settings)), scene(gpu, input, settings),
+    : Renderer(device, input, set, sceneFeatures(input, set), waves) {}
+
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waves)
+    : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
       camera(gpu, scene, sceneHas, settings, waves.camera), film(gpu, settings.size, sceneHas) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
@@ -30,9 +35,9 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSiz
 }
 
 void Renderer::measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius) {
-    const uint stored = static_cast<uint>(stages.tracing.trace(pilotPass).stored);
+    const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius ? firstPass : noPass).stored);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
-    stages.field.emplace(gpu).measure(pilot, stored, perDisc);
+    stages.field.emplace(gpu).measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
         stages.radius = stages.typicalRadius();
         stages.field.reset();
@@ -72,6 +77,7 @@ void Renderer::renderPass(uint pass) {
         cameraRays.shadow += rays.shadow;
     }
     film.end();
+    if (sceneHas.checksFeatures) scene.requireNothingMissing();
 }
 
 } // namespace vkpm

@@ -34,6 +34,8 @@ struct WaveSizes {
 class Renderer {
 public:
     Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, WaveSizes waves = {});
+    /// With other features than sceneFeatures(scene, settings), for tests.
+    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, const Features& features, WaveSizes waves = {});
 
     /// Renders the pass of an index, the one after the film's last.
     void renderPass(uint pass);

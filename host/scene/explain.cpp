@@ -8,9 +8,22 @@ namespace {
 /// Why a photon map is left out; empty if it is not.
 std::string mapAbsent(bool needed, bool caustic, const Features& features, const Settings& settings) {
     if (needed) return "";
+    if (!features.hasDiffuse) return "the scene has no diffuse surface";
     if (caustic && !features.hasMirror && !features.hasGlass) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
-    return "the integrator does not use it";
+    const bool uses = settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic == caustic);
+    return uses ? "nobody asked for a layer that needs it" : "the integrator does not use it";
+}
+
+/// Why a layer that was asked for has no light.
+std::string layerAbsent(uint layer, const Features& features, const Settings& settings) {
+    const bool specular = features.hasMirror || features.hasGlass;
+    if (layer >= LAYER_COUNT) return "nobody asked for it";
+    if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR) return "the scene has no diffuse surface";
+    if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
+    if ((layer == LAYER_CAUSTIC ? settings.causticPhotons : settings.photons) == 0 && settings.integrator != INTEGRATOR_DIRECT)
+        return "no photons were asked for";
+    return "the integrator does not find it";
 }
 
 std::string fieldAbsent(const Features& features, const Settings& settings) {
@@ -29,6 +42,10 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     const auto because = [&](const char* name, const std::string& absent, const char* present) {
         lines.push_back({name, absent.empty(), absent.empty() ? present : absent});
     };
+    const auto layer = [&](const char* name, uint needed, uint index) {
+        const bool asked = (settings.layers >> index & 1) != 0;
+        because(name, needed ? "" : !asked ? "nobody asked for it" : layerAbsent(index, f, settings), "the picture shows it");
+    };
     has("hasTriangles", f.hasTriangles, "triangles");
     has("hasSpheres", f.hasSpheres, "spheres");
     has("hasSmoothNormals", f.hasSmoothNormals, "smooth normals");
@@ -46,6 +63,17 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
     because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");
     because("hasNearest", f.hasNearest ? "" : "it was not asked for", "it was asked for");
+    layer("hasEmissionLayer", f.hasEmissionLayer, LAYER_EMISSION);
+    layer("hasDirectLayer", f.hasDirectLayer, LAYER_DIRECT);
+    layer("hasSpecularLayer", f.hasSpecularLayer, LAYER_SPECULAR);
+    layer("hasCausticLayer", f.hasCausticLayer, LAYER_CAUSTIC);
+    layer("hasIndirectLayer", f.hasIndirectLayer, LAYER_INDIRECT);
+    layer("hasAlbedo", f.hasAlbedo, ASK_ALBEDO);
+    layer("hasNormal", f.hasNormal, ASK_NORMAL);
+    layer("hasDepth", f.hasDepth, ASK_DEPTH);
+    layer("hasNoise", f.hasNoise, ASK_NOISE);
+    has("hasDiffuse", f.hasDiffuse, "diffuse surfaces");
+    because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;
 }
 

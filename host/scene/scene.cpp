@@ -54,6 +54,9 @@ static void chooseLayers(Features& f, const Settings& settings) {
 
 Features sceneFeatures(const Scene& scene, const Settings& settings) {
     Features features;
+#ifndef NDEBUG
+    features.checksFeatures = 1;
+#endif
     if (settings.allFeatures) {
         features.stackSize = std::max(features.stackSize, scene.stackSize);
         chooseLayers(features, settings);

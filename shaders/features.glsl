@@ -1,0 +1,29 @@
+// Checks that nothing was left out that the scene needs. They cost time, so that debug builds alone make them.
+
+void require(DeviceScene scene, bool needed, uint has, uint id) {
+    if (needed && has == 0u) atomicOr(uintPtr(scene.missing).at[0], 1u << id);
+}
+
+void requireLight(DeviceScene scene, Light light) {
+    if (checksFeatures == 0u) return;
+    require(scene, scene.lightCount > 1u, hasManyLights, id_hasManyLights);
+    require(scene, light.kind == LIGHT_RECTANGLE, hasRectangleLights, id_hasRectangleLights);
+    require(scene, light.kind == LIGHT_TRIANGLE, hasTriangleLights, id_hasTriangleLights);
+    require(scene, light.kind == LIGHT_SPHERE, hasSphereLights, id_hasSphereLights);
+    require(scene, light.twoSided != 0u, hasTwoSidedLights, id_hasTwoSidedLights);
+}
+
+void requireSurface(DeviceScene scene, uint primitive, Material material) {
+    if (checksFeatures == 0u) return;
+    bool triangle = primitive < scene.triangleCount;
+    bool glass = material.kind == MATERIAL_GLASS;
+    require(scene, triangle, hasTriangles, id_hasTriangles);
+    require(scene, !triangle, hasSpheres, id_hasSpheres);
+    require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals, id_hasSmoothNormals);
+    require(scene, material.kind == MATERIAL_DIFFUSE, hasDiffuse, id_hasDiffuse);
+    require(scene, material.kind == MATERIAL_MIRROR, hasMirror, id_hasMirror);
+    require(scene, glass, hasGlass, id_hasGlass);
+    require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
+    require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
+    require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);
+}
