@@ -83,6 +83,13 @@ inline double secondsOf(const std::string& option, const std::string& text) {
     return *value;
 }
 
+inline double errorOf(const std::string& option, const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const auto value = numberOf<double>(text.substr(0, text.size() - percent));
+    if (!value || *value <= 0) refuse(option, text, "a relative error above 0, such as 0.01 or 1%");
+    return percent ? *value / 100 : *value;
+}
+
 inline float alphaOf(const std::string& option, const std::string& text) {
     const auto value = numberOf<float>(text);
     if (!value || *value <= 0 || *value > 1) refuse(option, text, "a number above 0, at most 1, such as 0.6667");

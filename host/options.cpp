@@ -56,6 +56,8 @@ void addImage(Parser& parser, Options& options, const Settings& defaults) {
           options.passes);
     parser.add("--time", "SECONDS", "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
                [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
+    parser.add("--target-error", "E", "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
+               [&](auto& name, auto& value) { options.targetError = errorOf(name, value); });
     parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge",
                [&](auto& name, auto& value) { options.passRange = passRangeOf(name, value); });
     count("--seed", fmt::format("seed of the random numbers (default {})", defaults.seed), 0, NONE, options.seed);
@@ -238,6 +240,8 @@ Settings Options::override(Settings settings) const {
     set(settings.seed, seed);
     set(settings.allFeatures, allFeatures);
     requirePhotonMap(*this, settings.integrator);
+    if (targetError && (settings.layers & (1u << ASK_NOISE | 1u << ASK_BIAS)) != (1u << ASK_NOISE | 1u << ASK_BIAS))
+        throw InputError("--target-error: needs the layers noise and bias; allowed: with all layers, or with both in --layers");
     return settings;
 }
 

@@ -24,6 +24,7 @@ struct Options {
     bool resume = false;
     std::optional<double> checkpoint;   // seconds between saves
     std::optional<double> seconds;      // of rendering
+    std::optional<double> targetError;  // relative, to stop at
     std::optional<PassRange> passRange;
     std::string device; // index or part of the name; empty: vkpm chooses
     bool json = false;

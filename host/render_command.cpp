@@ -2,11 +2,13 @@
 #include "commands.h"
 #include "gpu/audit.h"
 #include "output/atomic_file.h"
+#include "output/error_estimate.h"
 #include "output/event_log.h"
 #include "output/film_runs.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/statistics.h"
+#include "render/noise.h"
 #include "render/radius.h"
 #include "render/renderer.h"
 #include "render_file.h"
@@ -18,6 +20,8 @@
 
 namespace vkpm {
 namespace {
+
+const uint leastPassesForError = 8; // batches of two sizes, see render/noise.h
 
 using Clock = std::chrono::steady_clock;
 
@@ -50,7 +54,7 @@ public:
     Job(const Options& opts, const Scene& input, const Settings& set, Gpu& opened)
         : options(opts), scene(input), settings(set), gpu(opened), device(fmt::format("{}, {}", gpu.info().name, gpu.info().driver)), renderer(gpu, scene, settings), log(options.log, options.resume),
           identity(identityOf(scene, settings)), passes(options.passRange.value_or(PassRange{0, settings.passes})) {
-        if (options.seconds && !options.passes && !options.passRange) passes.end = NONE;
+        if ((options.seconds || options.targetError) && !options.passes && !options.passRange) passes.end = NONE;
     }
 
     /// Goes on from what the output holds, if it is there.
@@ -63,6 +67,8 @@ public:
 private:
     void requireSame(const RenderFile& file) const;
     bool done() const;
+    void estimate(Progress& progress);
+    std::optional<ErrorEstimate> estimateNow() const;
     void checkpoint();
     void save();
     Statistics statistics() const;
@@ -86,6 +92,7 @@ private:
     Clock::time_point begin{};      // of rendering
     Clock::time_point saved{};      // last checkpoint
     double renderSeconds = 0;
+    std::optional<ErrorEstimate> error; // the last estimate
 };
 
 std::uint64_t Job::rays() const {
@@ -135,8 +142,27 @@ void Job::resume() {
 bool Job::done() const {
     const uint rendered = renderer.film.passCount() - restored;
     if (interrupted() || passes.begin + renderer.film.passCount() >= passes.end) return true;
+    if (options.targetError && error && error->error <= *options.targetError) return true;
     const double elapsed = secondsSince(begin);
     return options.seconds && restored + rendered > 0 && elapsed + 0.5 * elapsed / std::max(rendered, 1u) >= *options.seconds;
+}
+
+/// Nothing while there are no batches of passes that could differ, or if nobody asked for noise.
+std::optional<ErrorEstimate> Job::estimateNow() const {
+    if (noiseFreedom(renderer.film.ranges()) == 0 || !(settings.layers >> ASK_NOISE & 1)) return {};
+    return estimateError(renderer.film.download(), settings.size);
+}
+
+/// Estimates the error at numbers of passes that grow by a quarter: a function of the passes alone, so that a render that is
+/// resumed stops where one that was not would.
+void Job::estimate(Progress& progress) {
+    const uint count = renderer.film.passCount();
+    uint due = leastPassesForError;
+    while (due < count) due += (due + 3) / 4;
+    if (!options.targetError || due != count) return;
+    error = estimateNow();
+    if (error) progress.estimate(error->error);
+    if (error) log.write("error", {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
 }
 
 void Job::renderPasses() {
@@ -144,10 +170,12 @@ void Job::renderPasses() {
     log.write("start", {{"scene", options.scene.string()}, {"settings", nlohmann::ordered_json::parse(settingsJson(settings))},
                         {"passes", {passes.begin, passes.end}}, {"device", gpu.info().name}, {"radius", radiiJson(globalRadii())},
                         {"causticRadius", radiiJson(causticRadii())}});
-    Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), restored}, options.quiet);
+    Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), restored, options.targetError.value_or(0)}, options.quiet);
+    if (restored > 0) estimate(progress);
     while (!done()) {
         const uint pass = passes.begin + renderer.film.passCount();
         renderer.renderPass(pass);
+        estimate(progress);
         log.write("pass", {{"pass", pass}, {"rays", rays()}, {"radiusFactor", radiusFactor(pass, settings.alpha)}});
         progress.update(renderer.film.passCount(), rays());
         if (options.checkpoint && !done() && secondsSince(saved) >= *options.checkpoint) checkpoint();
@@ -160,9 +188,9 @@ void Job::checkpoint() {
     try {
         save();
         log.write("checkpoint", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}});
-    } catch (const std::runtime_error& error) {
-        fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", error.what());
-        log.write("checkpoint failed", {{"cause", error.what()}});
+    } catch (const std::runtime_error& failure) {
+        fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", failure.what());
+        log.write("checkpoint failed", {{"cause", failure.what()}});
     }
     saved = Clock::now();
 }
@@ -193,6 +221,7 @@ Statistics Job::statistics() const {
     s.features = renderer.features();
     s.needed = manifest(renderer.features(), settings, true);
     s.leftOut = manifest(renderer.features(), settings, false);
+    s.error = error;
     s.nonfinite = nonfinite();
     s.setupSeconds = std::chrono::duration<double>(begin - start).count();
     s.renderSeconds = renderSeconds;
@@ -205,6 +234,8 @@ int Job::finish() {
     if (nonfinite())
         fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
     save();
+    error = estimateNow();
+    if (error && !options.quiet) fmt::print(stderr, "{}\n", describe(*error));
     log.write("end", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}, {"interrupted", interrupted()}});
     if (options.stats) writeStatistics(*options.stats, statistics());
     return interrupted() ? 130 : 0;

@@ -20,20 +20,31 @@ float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
     return near && dot(unpackUnit(PhotonPtr(map.photons).at[i].normal), query.normal) > 0.5 ? distance2 : INFINITY;
 }
 
-// Sum of the photons' colours under the kernel, per area of the disc.
-vec3 estimateWithin(PhotonMap map, Query query, float radius) {
+// Sum of the photons' colours under the kernel, per area of the disc. If bias is estimated, `inner` is the same of the disc of
+// half the area in the same photons, else zero.
+vec3 estimateWithin(PhotonMap map, Query query, float radius, out vec3 inner) {
     uint kernel = densityKernel == ANY ? map.kernel : densityKernel;
     vec3 sum = vec3(0.0);
+    inner = vec3(0.0);
     Cells cells = cellsAround(map, query.position, radius);
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             float distance2 = photonDistance2(map, i, query, radius);
-            if (distance2 < INFINITY)
-                sum += PhotonPtr(map.photons).at[i].color * densityWeight(kernel, distance2 / (radius * radius));
+            if (distance2 == INFINITY) continue;
+            vec3 color = PhotonPtr(map.photons).at[i].color;
+            float x2 = distance2 / (radius * radius);
+            sum += color * densityWeight(kernel, x2);
+            if (hasBias != 0u && x2 < 0.5) inner += color * densityWeight(kernel, 2.0 * x2);
         }
     }
+    inner *= 2.0 / (PI * radius * radius);
     return sum / (PI * radius * radius);
+}
+
+vec3 estimateWithin(PhotonMap map, Query query, float radius) {
+    vec3 inner;
+    return estimateWithin(map, query, radius, inner);
 }
 
 // Photons nearer than `low`, and those in [low, high) by interval of squared distance.

@@ -24,6 +24,11 @@ void main() {
         precise vec3 apart = beautyOf(args.sums, args.pixels, pixel) * args.weights.perPass - beautyOf(args.samples, args.stride, slot);
         joinDeviations(args.sums, args.pixels, pixel, apart, vec3(0.0), args.weights);
     }
+    if (hasBias != 0u) {
+        precise float bias = luminance(loadColumns(args.samples, args.stride, COLUMN_BIAS, slot));
+        precise float square = bias * bias;
+        args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += square;
+    }
     for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
         args.sums.at[column * args.pixels + pixel] += args.samples.at[column * args.stride + slot];
 }

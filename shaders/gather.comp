@@ -1,4 +1,6 @@
-// Adds what the photon map estimates at each point asked for.
+// Adds what the photon map estimates at each point asked for, and by how much blur makes that wrong. A disc of radius r has the
+// expectation E + c r^2 Laplace(E) + O(r^4), where c is the kernel's (Silverman 1986, section 4.3; 1/8 for the constant one): the
+// difference to a disc of half the area is half of the bias (as in Hachisuka, Jarosz & Jensen 2010, from two radii).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -18,6 +20,9 @@ void main() {
     Query query = args.queries.at[slot];
     float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
                                                             : radiusAt(args.map, query.position);
-    vec3 irradiance = estimateWithin(args.map, query, radius) * args.map.photonFlux;
+    vec3 inner;
+    vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
+    if (hasBias != 0u)
+        addToColumns(args.samples, args.stride, COLUMN_BIAS, slot, 2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
     addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
 }

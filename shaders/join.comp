@@ -16,6 +16,7 @@ void main() {
         vec3 batch = loadColumns(args.other, args.pixels, COLUMN_COARSE, pixel);
         joinDeviations(args.sums, args.pixels, pixel, apart, batch, args.weights);
     }
+    if (hasBias != 0u) args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += args.other.at[COLUMN_SQUARE * args.pixels + pixel];
     for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
         args.sums.at[column * args.pixels + pixel] += args.other.at[column * args.pixels + pixel];
 }

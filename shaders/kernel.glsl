@@ -23,6 +23,11 @@ float maxComponent(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
+// Of linear Rec. 709.
+float luminance(vec3 color) {
+    return dot(color, vec3(0.2126, 0.7152, 0.0722));
+}
+
 // Without leaning on comparisons of NaN, which drivers may assume away.
 bool isFinite(float x) {
     return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;

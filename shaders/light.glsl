@@ -47,7 +47,3 @@ LightPoint sampleLight(Light light, vec2 u) {
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
     return isTwoSided(light) || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
 }
-
-float luminance(vec3 color) {
-    return dot(color, vec3(0.2126, 0.7152, 0.0722));
-}

@@ -66,10 +66,10 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
     return true;
 }
 
-// Returns the bit of the map's queue, or none if nobody asked for the layer.
+// Returns the bit of the map's queue, or none if there is no such map or nobody asked for the layer.
 uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
     layer = layerOf(path, layer);
-    if (!hasLayer(layer)) return 0u;
+    if ((queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) == 0u || !hasLayer(layer)) return 0u;
     float footprint = path.travelled * args.pixelAngle;
     args.queries.at[slot] = Query(surface.position, normal, weight, layerColumn(layer), footprint);
     return 1u << queue;

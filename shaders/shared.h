@@ -76,7 +76,8 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(27, hasDepth, 1)                                                                                                 \
     X(28, hasNoise, 1)                                                                                                 \
     X(29, hasDiffuse, 1)                                                                                               \
-    X(30, checksFeatures, 0) // kernels report what they meet and are without, see features.glsl
+    X(30, hasBias, 1)                                                                                                  \
+    X(31, checksFeatures, 0) // kernels report what they meet and are without, see features.glsl
 
 #ifdef __cplusplus
 struct Features {
@@ -222,8 +223,10 @@ const uint LAYER_COUNT = 5u;
 
 // Samples and their sums are stored column by column: a float for each pixel, then those of the next column. What a render
 // does without has no column. One pass gives a pixel its radiance by layer and what it knows of the first surface seen:
-// albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface). Sums over a run of
-// passes have the squared deviations of beauty between batches of passes as well, see pixel_sum.glsl.
+// albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface), and an estimate of the
+// bias of beauty. Sums over a run of
+// passes have the squared deviations of beauty between batches of passes as well, see pixel_sum.glsl, and the square of the
+// luminance of the bias.
 #define COLUMNS(X)                                                                                                     \
     X(COLUMN_EMISSION, 0u)                                                                                             \
     X(COLUMN_DIRECT, COLUMN_EMISSION + 3u * hasEmissionLayer)                                                          \
@@ -234,10 +237,12 @@ const uint LAYER_COUNT = 5u;
     X(COLUMN_NORMAL, COLUMN_ALBEDO + 3u * hasAlbedo)                                                                   \
     X(COLUMN_DEPTH, COLUMN_NORMAL + 3u * hasNormal)                                                                    \
     X(COLUMN_COVERED, COLUMN_DEPTH + hasDepth)                                                                         \
-    X(SAMPLE_COLUMNS, COLUMN_COVERED + hasDepth)                                                                       \
+    X(COLUMN_BIAS, COLUMN_COVERED + hasDepth)                                                                          \
+    X(SAMPLE_COLUMNS, COLUMN_BIAS + 3u * hasBias)                                                                      \
     X(COLUMN_FINE, SAMPLE_COLUMNS)                                                                                     \
     X(COLUMN_COARSE, COLUMN_FINE + 3u * hasNoise)                                                                      \
-    X(SUM_COLUMNS, COLUMN_COARSE + 3u * hasNoise)
+    X(COLUMN_SQUARE, COLUMN_COARSE + 3u * hasNoise)                                                                    \
+    X(SUM_COLUMNS, COLUMN_SQUARE + hasBias)
 
 #ifdef __cplusplus
 /// Where the columns begin, and how many there are.

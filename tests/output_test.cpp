@@ -145,7 +145,7 @@ TEST_F(OutputTest, FilmHasTheLayersAndBeautyIsTheirSum) {
     const std::vector<Pixel> pixels = somePixels();
     const Image image = filmImage(pixels, {3, 2}, allLayers);
     EXPECT_EQ(image.size, uvec2(3, 2));
-    EXPECT_EQ(image.channels.size(), 28u);
+    EXPECT_EQ(image.channels.size(), 31u);
     for (size_t i = 0; i < pixels.size(); ++i)
         for (uint c = 0; c < 3; ++c) {
             const std::string letter(1, "RGB"[c]);
@@ -259,7 +259,7 @@ TEST_F(OutputTest, StatisticsHaveTheContractsKeys) {
     const auto json = nlohmann::json::parse(contentOf(folder / "s.json"));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    ASSERT_THAT(keys, ElementsAre("device", "features", "left_out", "memory", "nonfinite", "passes", "photons", "radius", "rays",
+    ASSERT_THAT(keys, ElementsAre("device", "error", "features", "left_out", "memory", "needed", "nonfinite", "passes", "photons", "radius", "rays",
                                   "seconds", "seed", "stages"));
     for (const char* key : {"total", "setup", "render"}) EXPECT_TRUE(json["seconds"][key].is_number()) << key;
     for (const char* map : {"global", "caustic"})

@@ -1,7 +1,9 @@
 /// Sums of passes: the same runs and the same bits however a range of passes is split, and means that are right.
 #include "judge.h"
 #include "map.h"
+#include "output/error_estimate.h"
 #include "render/film.h"
+#include "render/noise.h"
 #include "scene/scene.h"
 #include <algorithm>
 #include <cstring>
@@ -113,52 +115,113 @@ TEST(Film, PartsGiveTheBitsOfTheWhole) {
     }
 }
 
-TEST(PassRuns, BatchesAreFourToFifteenAndTheirParts) {
-    for (uint n = 4; n < 5000; n++) {
-        const Batches batches = batchesOf(runsOf({0, n}));
-        EXPECT_GE(n / batches.size, 4u) << n;
-        EXPECT_LT(n / batches.size, 16u) << n;
-        EXPECT_GE(batches.count, n / batches.size) << n;
-        EXPECT_LE(batches.count, n / batches.size + 6) << n;
+TEST(PassRuns, BatchesOfTwoSizesHaveDeviationsInEveryRun) {
+    Random random(2);
+    for (int trial = 0; trial < 3000; trial++) {
+        const uint begin = trial % 2 ? 0 : random.bits() % 500;
+        const PassRange passes{begin, begin + 1 + random.bits() % 2000};
+        const std::vector<PassRange> runs = runsOf(passes);
+        const uint size = greatestBatch(runs);
+        for (const PassRange run : runs) {
+            const uint coarse = coarseBatch(run);
+            for (const uint batch : {size, size / 4})
+                if (batch > 0 && length(run) > batch) ASSERT_TRUE(coarse == batch || coarse == 4 * batch) << passes.begin << ":" << passes.end;
+        }
+        if (begin == 0 && length(passes) >= 8) EXPECT_GE(batchesOf(runs, size / 4).count, 8u);
+        EXPECT_DOUBLE_EQ(batchesOf(runs, size).weight, double(length(passes)) / size);
     }
-    EXPECT_EQ(batchesOf(runsOf({0, 1})).count, 1u);
-    EXPECT_EQ(batchesOf(runsOf({0, 3})).count, 3u);
 }
 
-// Squared deviations of batches as defined: whole ones of a size, and a part of one for each run that is less.
-TEST(Film, NoiseIsTheStandardErrorOfTheMeanOfBatches) {
-    for (const PassRange passes : {PassRange{0, 16}, {0, 3}, {0, 64}, {0, 100}, {3, 90}, {20, 21}}) {
+// The variance of the mean by batches as defined: whole ones of a size, and a part of one for each run that is less.
+TEST(Film, SpreadIsTheVarianceOfTheMeanByBatches) {
+    for (const PassRange passes : {PassRange{0, 16}, {0, 3}, {0, 64}, {0, 100}, {3, 90}, {20, 21}, {0, 37}}) {
         const std::vector<PassRange> runs = runsOf(passes);
-        const Batches batches = batchesOf(runs);
-        std::vector<PassRange> parts;
-        for (const PassRange run : runs)
-            for (uint first = run.begin; first < run.end; first += batches.size) parts.push_back({first, std::min(run.end, first + batches.size)});
-        ASSERT_EQ(parts.size(), batches.count);
-
-        const std::vector<Pixel> pixels = filmOf(passes).download();
-        for (std::size_t i = 0; i < pixels.size(); i++) {
-            std::vector<glm::dvec3> means;
-            glm::dvec3 mean{0}, direct{0};
-            for (const PassRange part : parts) {
-                glm::dvec3 sum{0};
-                for (uint pass = part.begin; pass < part.end; pass++) {
-                    const std::vector<float> samples = samplesOf(pass);
-                    for (uint layer = 0; layer < LAYER_COUNT; layer++) sum += glm::dvec3(layerAt(samples, layer, i));
-                    direct += glm::dvec3(layerAt(samples, LAYER_DIRECT, i)) / double(length(passes));
+        const Film film = filmOf(passes);
+        std::vector<std::vector<PixelSum>> sums;
+        for (std::size_t i = 0; i < runs.size(); i++) sums.push_back(film.sums(i));
+        for (const uint size : {greatestBatch(runs), greatestBatch(runs) / 4}) {
+            if (size == 0) continue;
+            std::vector<PassRange> parts;
+            for (const PassRange run : runs)
+                for (uint first = run.begin; first < run.end; first += size) parts.push_back({first, std::min(run.end, first + size)});
+            const Batches batches = batchesOf(runs, size);
+            ASSERT_EQ(parts.size(), batches.count);
+            for (std::size_t i = 0; i < 5; i++) {
+                SpreadSum spread;
+                for (std::size_t k = 0; k < runs.size(); k++) {
+                    glm::dvec3 beauty{0};
+                    for (const vec3& layer : sums[k][i].sum.layers) beauty += glm::dvec3(layer);
+                    spread.add(runs[k], size, beauty, glm::dvec3(sums[k][i].fine), glm::dvec3(sums[k][i].coarse));
                 }
-                mean += sum / double(length(passes));
-                means.push_back(sum / double(length(part)));
-            }
-            glm::dvec3 squares{0};
-            for (std::size_t k = 0; k < parts.size(); k++) squares += (means[k] - mean) * (means[k] - mean) * (double(length(parts[k])) / batches.size);
-            const double weights = double(length(passes)) / batches.size;
-            for (int c = 0; c < 3; c++) {
-                const double noise = parts.size() < 2 ? 0 : std::sqrt(squares[c] / (double(parts.size()) - 1) / weights);
-                EXPECT_NEAR(pixels[i].mean.layers[LAYER_DIRECT][c], direct[c], 1e-6 * direct[c]);
-                EXPECT_NEAR(pixels[i].noise[c], noise, 1e-5 * noise) << passes.begin << ":" << passes.end;
+                std::vector<glm::dvec3> means;
+                glm::dvec3 mean{0};
+                for (const PassRange part : parts) {
+                    glm::dvec3 sum{0};
+                    for (uint pass = part.begin; pass < part.end; pass++) {
+                        const std::vector<float> samples = samplesOf(pass);
+                        for (uint layer = 0; layer < LAYER_COUNT; layer++) sum += glm::dvec3(layerAt(samples, layer, i));
+                    }
+                    mean += sum / double(length(passes));
+                    means.push_back(sum / double(length(part)));
+                }
+                glm::dvec3 squares{0};
+                for (std::size_t k = 0; k < parts.size(); k++) squares += (means[k] - mean) * (means[k] - mean) * (double(length(parts[k])) / size);
+                const double weight = double(length(passes)) / size;
+                for (int c = 0; c < 3; c++) {
+                    const double variance = parts.size() < 2 ? 0 : squares[c] / (double(parts.size()) - 1) / weight;
+                    EXPECT_NEAR(spread.variance(batches)[c], variance, 2e-5 * variance) << passes.begin << ":" << passes.end << " by " << size;
+                }
             }
         }
     }
+}
+
+TEST(Film, MeansAreThoseOfDoublePrecision) {
+    const std::vector<Pixel> pixels = filmOf({0, 100}).download();
+    for (std::size_t i = 0; i < pixels.size(); i++) {
+        glm::dvec3 direct{0};
+        for (uint pass = 0; pass < 100; pass++) direct += glm::dvec3(layerAt(samplesOf(pass), LAYER_DIRECT, i)) / 100.0;
+        for (int c = 0; c < 3; c++) EXPECT_NEAR(pixels[i].mean.layers[LAYER_DIRECT][c], direct[c], 1e-6 * direct[c]);
+    }
+}
+
+// Intervals of independent samples have the truth in them as often as they say, and those of samples that complement each other, too.
+TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
+    const uvec2 area{200, 200};
+    for (const bool stratified : {false, true})
+        for (const uint passes : {16u, 32u, 64u}) {
+            Random random(passes + stratified);
+            std::vector<float> offset(area.x * area.y);
+            for (float& x : offset) x = random.unit();
+            Film film(testGpu(), area);
+            for (uint pass = 0; pass < passes; pass++) {
+                std::vector<float> samples(std::size_t(columns.SAMPLE_COLUMNS) * area.x * area.y);
+                // Van der Corput's sequence, shifted in each pixel: the mean over passes of a smooth function falls faster than its root.
+                float radical = 0;
+                for (uint bit = 0; bit < 16; bit++) radical += float(pass >> bit & 1) * std::exp2(-float(bit) - 1);
+                for (std::size_t i = 0; i < offset.size(); i++) {
+                    const float u = stratified ? std::fmod(radical + offset[i], 1.0f) : random.unit();
+                    const float rough = random.unit(); // and one that does not
+                    samples[(columns.COLUMN_DIRECT) * offset.size() + i] = u + 0.3f * rough;
+                }
+                film.begin(pass);
+                film.add(Buffer<float>(testGpu(), "samples", samples), area.x * area.y, 0, area.x * area.y);
+                film.end();
+            }
+            const std::vector<Pixel> pixels = film.download();
+            double inside = 0, squares = 0, noise = 0;
+            for (const Pixel& pixel : pixels) {
+                const double error = double(pixel.mean.layers[LAYER_DIRECT].x) - 0.65;
+                inside += std::abs(error) <= double(halfInterval(pixel, noiseFreedom(film.ranges())).x);
+                squares += error * error;
+                noise += double(pixel.noise.x) * double(pixel.noise.x);
+            }
+            inside /= double(pixels.size());
+            std::printf("%s, %u passes: %.3f inside, noise %.3f of the error\n", stratified ? "stratified" : "independent", passes, inside, std::sqrt(noise / squares));
+            EXPECT_GT(inside, 0.85) << stratified << " " << passes;
+            EXPECT_LT(inside, 0.95) << stratified << " " << passes;
+            EXPECT_NEAR(std::sqrt(noise / squares), 1, stratified ? 0.25 : 0.1) << stratified << " " << passes;
+        }
 }
 
 TEST(Film, ColumnsThatAreLeftOutAreZeroAndChangeNoOther) {

@@ -51,6 +51,7 @@ Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers) {
     if (asked(ASK_DEPTH))
         film.addChannel("depth.Z", [](const Pixel& pixel) { return pixel.mean.covered > 0 ? pixel.mean.depth / pixel.mean.covered : 0.0f; });
     if (asked(ASK_NOISE)) film.addVector("noise.", "RGB", [](const Pixel& pixel) { return pixel.noise; });
+    if (asked(ASK_BIAS)) film.addVector("bias.", "RGB", [](const Pixel& pixel) { return pixel.mean.bias; });
     return std::move(film.image);
 }
 

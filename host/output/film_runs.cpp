@@ -20,7 +20,9 @@ constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
     {"specular.R", 2}, {"specular.G", 2}, {"specular.B", 2}, {"caustic.R", 3},        {"caustic.G", 3},  {"caustic.B", 3},
     {"indirect.R", 4}, {"indirect.G", 4}, {"indirect.B", 4}, {"albedo.R", 5},         {"albedo.G", 5},   {"albedo.B", 5},
     {"normal.X", 6},   {"normal.Y", 6},   {"normal.Z", 6},   {"depth.Z", ASK_DEPTH},  {"covered.Y", ASK_DEPTH},
+    {"bias.R", 9},     {"bias.G", 9},     {"bias.B", 9},
     {"fine.R", 8},     {"fine.G", 8},     {"fine.B", 8},     {"coarse.R", ASK_NOISE}, {"coarse.G", 8},   {"coarse.B", 8},
+    {"square.Y", 9},
 }};
 
 std::string channelName(std::size_t run, std::size_t index) { return fmt::format("state{}.{}", run, COLUMN_NAMES[index].name); }

@@ -2,6 +2,7 @@
 #include "output/progress.h"
 #include "output/interrupt.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -36,15 +37,18 @@ size_t terminalColumns(std::FILE* file) {
 
 } // namespace
 
-std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar) {
+std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar, double error) {
     const bool done = finished >= goal.passes;
     const uint rendered = finished - goal.first;
     const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
-    const double part = std::clamp(std::max(double(finished) / goal.passes, seconds / goal.seconds), 0.0, most);
+    const double nearness = error > 0 ? goal.error * goal.error / (error * error) : 0;
+    const double part = std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, nearness}), 0.0, most);
     const double left = rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
     const std::string passes = goal.passes == NONE ? "" : fmt::format("/{}", goal.passes);
     std::string line = fmt::format("pass {}{}  {} %  {} elapsed", finished, passes, uint(100 * part), clockText(seconds));
-    if (rendered > 0 && !done) line += fmt::format("  {} left", clockText(left));
+    const bool knownEnd = goal.passes != NONE || std::isfinite(goal.seconds);
+    if (rendered > 0 && !done && knownEnd) line += fmt::format("  {} left", clockText(left));
+    if (error > 0) line += fmt::format("  error {:.2g} %", 100 * error);
     if (rays > 0 && seconds > 0) line += "  " + rateText(static_cast<double>(rays) / seconds);
     if (bar && line.size() + BAR_WIDTH + 4 <= columns) {
         const size_t full = size_t(BAR_WIDTH * part);
@@ -101,7 +105,7 @@ bool Progress::due(double seconds) const {
 /// Writes over the line, blanks over what remains of a longer one.
 void Progress::draw(double seconds) {
     const size_t columns = terminalColumns(file);
-    const std::string line = progressLine(finished, goal, seconds, rays, columns, true);
+    const std::string line = progressLine(finished, goal, seconds, rays, columns, true, lastError);
     fmt::print(file, "\r{:<{}}", line, std::min(drawn, columns));
     std::fflush(file);
     drawn = line.size();
@@ -109,7 +113,7 @@ void Progress::draw(double seconds) {
 }
 
 void Progress::log(double seconds) {
-    fmt::print(file, "{}\n", progressLine(finished, goal, seconds, rays, 200, false));
+    fmt::print(file, "{}\n", progressLine(finished, goal, seconds, rays, 200, false, lastError));
     std::fflush(file);
     shown = finished;
 }

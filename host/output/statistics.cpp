@@ -56,6 +56,8 @@ std::string statisticsJson(const Statistics& statistics) {
     object["features"] = featuresJson(statistics.features);
     object["needed"] = statistics.needed;
     object["left_out"] = statistics.leftOut;
+    object["error"] = nullptr;
+    if (const auto& e = statistics.error) object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"sure", 0.9}};
     object["nonfinite"] = statistics.nonfinite;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,5 +1,6 @@
 /// What a render did and what it took, as one JSON object.
 #pragma once
+#include "output/error_estimate.h"
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>
@@ -47,6 +48,7 @@ struct Statistics {
     Features features{};
     std::vector<std::string> needed{};  // what the render has, and why
     std::vector<std::string> leftOut{}; // what it does without, and why
+    std::optional<ErrorEstimate> error{};
     std::uint64_t nonfinite = 0;      // samples that count as black
 };
 

@@ -1,5 +1,6 @@
 /// The film, and its means on the host.
 #include "render/film.h"
+#include "render/noise.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -39,54 +40,50 @@ template <class Copy> void forEachFloat(const Columns& film, Copy copy) {
         for (uint i = 0; i < place.floats; i++) copy(place.inPixel + i, place.inFilm + i);
 }
 
-/// Means over runs of passes, in double precision, with the deviations between batches of passes.
+/// Sums over runs of passes, in double precision.
 struct Total {
     dvec3 layers[LAYER_COUNT]{};
-    dvec3 albedo{0}, normal{0};
-    double depth = 0, covered = 0;
-    dvec3 beauty{0};    // mean so far
-    dvec3 deviation{0}; // squares, with batches as weights
-    double batches = 0;
+    dvec3 albedo{0}, normal{0}, bias{0};
+    double depth = 0, covered = 0, square = 0;
+    SpreadSum coarse, fine;
 
     void add(const PixelSum& run, PassRange passes, uint batch);
-    Pixel pixel(double passes, uint count) const;
+    Pixel pixel(double passes) const;
 };
 
 void Total::add(const PixelSum& run, PassRange passes, uint batch) {
-    dvec3 sum{0};
+    dvec3 beauty{0};
     for (uint layer = 0; layer < LAYER_COUNT; layer++) {
         layers[layer] += dvec3(run.sum.layers[layer]);
-        sum += dvec3(run.sum.layers[layer]);
+        beauty += dvec3(run.sum.layers[layer]);
     }
     albedo += dvec3(run.sum.albedo);
     normal += dvec3(run.sum.normal);
     depth += double(run.sum.depth);
     covered += double(run.sum.covered);
-
-    const uint coarse = coarseBatch(passes);
-    const double weight = double(length(passes)) / batch;
-    const dvec3 apart = sum / double(length(passes)) - beauty;
-    if (length(passes) > batch) deviation += dvec3(coarse == batch ? run.coarse : run.fine);
-    deviation += apart * apart * (batches * weight / (batches + weight));
-    batches += weight;
-    beauty += apart * (weight / batches);
+    bias += dvec3(run.sum.bias);
+    square += double(run.square);
+    coarse.add(passes, batch, beauty, dvec3(run.fine), dvec3(run.coarse));
+    if (batch >= 4) fine.add(passes, batch / 4, beauty, dvec3(run.fine), dvec3(run.coarse));
 }
 
-Pixel Total::pixel(double passes, uint count) const {
+Pixel Total::pixel(double n) const {
     Pixel pixel{};
-    for (uint layer = 0; layer < LAYER_COUNT; layer++) pixel.mean.layers[layer] = vec3(layers[layer] / passes);
-    pixel.mean.albedo = vec3(albedo / passes);
-    pixel.mean.normal = vec3(normal / passes);
-    pixel.mean.depth = float(depth / passes);
-    pixel.mean.covered = float(covered / passes);
-    if (count > 1) pixel.noise = vec3(glm::sqrt(deviation / (count - 1.0) / batches));
+    for (uint layer = 0; layer < LAYER_COUNT; layer++) pixel.mean.layers[layer] = vec3(layers[layer] / n);
+    pixel.mean.albedo = vec3(albedo / n);
+    pixel.mean.normal = vec3(normal / n);
+    pixel.mean.depth = float(depth / n);
+    pixel.mean.covered = float(covered / n);
+    pixel.mean.bias = vec3(bias / n);
+    const double mean = glm::dot(bias, dvec3(0.2126, 0.7152, 0.0722)) / n;
+    if (n > 1) pixel.biasNoise = float(std::sqrt(std::max(0.0, square / n - mean * mean) / (n - 1)));
     return pixel;
 }
 
 } // namespace
 
-Film::Film(Gpu& device, uvec2 size, const Features& features)
-    : gpu(device), count(size.x * size.y), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
+Film::Film(Gpu& device, uvec2 pixels, const Features& features)
+    : gpu(device), size(pixels), count(size.x * size.y), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
     Recording recording(gpu);
     recording.clear(status);
     recording.submit();
@@ -99,8 +96,6 @@ std::vector<PassRange> Film::ranges() const {
     for (const Run& run : runs) ranges.push_back(run.passes);
     return ranges;
 }
-
-Batches Film::batches() const { return batchesOf(ranges()); }
 
 Film::Run& Film::append(PassRange passes) {
     assert(runs.empty() || runs.back().passes.end == passes.begin);
@@ -161,15 +156,24 @@ void Film::joinLast() {
 }
 
 std::vector<Pixel> Film::download() const {
-    const uint batch = batches().size;
+    const std::vector<PassRange> passes = ranges();
+    const uint batch = greatestBatch(passes);
     std::vector<Total> totals(count);
     for (std::size_t i = 0; i < runs.size(); i++) {
         const std::vector<PixelSum> run = sums(i);
-        for (uint p = 0; p < count; p++) totals[p].add(run[p], runs[i].passes, batch);
+        for (uint p = 0; p < count; p++) totals[p].add(run[p], passes[i], batch);
     }
+
+    std::vector<Spread> spreads;
+    for (const Total& total : totals)
+        spreads.push_back({total.coarse.variance(batchesOf(passes, batch)), batch >= 4 ? total.fine.variance(batchesOf(passes, batch / 4)) : dvec3(0)});
+    const std::vector<vec3> noise = noiseOf(spreads, size, passes);
     std::vector<Pixel> pixels;
     pixels.reserve(count);
-    for (const Total& total : totals) pixels.push_back(total.pixel(passCount(), batches().count));
+    for (uint p = 0; p < count; p++) {
+        pixels.push_back(totals[p].pixel(passCount()));
+        pixels.back().noise = noise[p];
+    }
     return pixels;
 }
 

@@ -11,7 +11,7 @@ namespace vkpm {
 class Film {
 public:
     /// A film has the columns that the features say, and takes samples that have them.
-    Film(Gpu& gpu, uvec2 size, const Features& features = {});
+    Film(Gpu& gpu, uvec2 pixels, const Features& features = {});
 
     /// Makes room for a pass, the one after the last.
     void begin(uint pass);
@@ -29,10 +29,10 @@ public:
     /// The passes taken so far.
     PassRange passes() const;
     uint passCount() const { return length(passes()); }
-    /// By which noise is judged.
-    Batches batches() const;
+    /// The runs that it keeps.
+    std::vector<PassRange> ranges() const;
 
-    /// The means of all passes, and their noise.
+    /// The means of all passes, and their noise (see render/noise.h).
     std::vector<Pixel> download() const;
     /// Samples that were not finite, by layer.
     std::array<std::uint64_t, LAYER_COUNT> nonfinite() const;
@@ -45,9 +45,9 @@ private:
 
     Run& append(PassRange passes);
     void joinLast();
-    std::vector<PassRange> ranges() const;
 
     Gpu& gpu;
+    uvec2 size;
     uint count;
     Columns columns;
     std::vector<Run> runs; // adjacent, ascending

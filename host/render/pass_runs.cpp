@@ -49,13 +49,17 @@ uint coarseBatch(PassRange run) {
     return node == length(run) ? std::max<uint>(node / siblings, 1) : node;
 }
 
-Batches batchesOf(std::span<const PassRange> runs) {
-    uint passes = 0;
-    for (const PassRange run : runs) passes += length(run);
-    const uint size = std::max<uint>(nodeWithin(passes) / siblings, 1);
-    uint count = 0;
-    for (const PassRange run : runs) count += std::max(length(run) / size, 1u);
-    return {size, count};
+uint greatestBatch(std::span<const PassRange> runs) {
+    return coarseBatch(*std::ranges::max_element(runs, {}, [](PassRange run) { return length(run); }));
+}
+
+Batches batchesOf(std::span<const PassRange> runs, uint size) {
+    Batches batches{size, 0, 0};
+    for (const PassRange run : runs) {
+        batches.count += std::max(length(run) / size, 1u);
+        batches.weight += double(length(run)) / size;
+    }
+    return batches;
 }
 
 } // namespace vkpm

@@ -22,11 +22,16 @@ JoinWeights joinWeights(PassRange a, PassRange b);
 /// Passes of the batches that a run's COARSE deviations are about; those of its FINE ones are a quarter of that.
 uint coarseBatch(PassRange run);
 
-/// The batches by which the spread of a mean over runs of passes is judged: four to fifteen whole ones, and what is left over.
+/// Batches of passes by which the spread of a mean over runs of passes is judged: runs are cut into whole ones, with a part of one
+/// for a run that is less.
 struct Batches {
-    uint size;  // passes in a batch, a power of four
-    uint count; // with a part of one for each run that is less
+    uint size;      // passes in a batch, a power of four
+    uint count;     // with parts
+    double weight;  // passes over size
 };
-Batches batchesOf(std::span<const PassRange> runs);
+Batches batchesOf(std::span<const PassRange> runs, uint size);
+
+/// The greatest size of batches for which runs have deviations; a quarter of that is the other one, if it is 1 or more.
+uint greatestBatch(std::span<const PassRange> runs);
 
 } // namespace vkpm

@@ -11,6 +11,7 @@ struct Sample {
     vec3 normal;
     float depth;   // distance along the camera's axis
     float covered; // passes that saw a surface
+    vec3 bias;     // of beauty, estimated
 };
 
 /// Sums over a run of passes, with the squared deviations between its batches; in the order of COLUMNS with everything on.
@@ -18,13 +19,15 @@ struct PixelSum {
     Sample sum;
     vec3 fine;
     vec3 coarse;
+    float square; // of the luminance of the bias
 };
 const std::size_t PIXEL_FLOATS = sizeof(PixelSum) / sizeof(float);
 
 /// What a pixel shows.
 struct Pixel {
-    Sample mean; // over passes
-    vec3 noise;  // standard error of the mean of beauty
+    Sample mean;     // over passes
+    vec3 noise;      // standard error of the mean of beauty
+    float biasNoise; // that of the luminance of the bias
 };
 
 } // namespace vkpm

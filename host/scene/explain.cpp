@@ -72,6 +72,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     layer("hasNormal", f.hasNormal, ASK_NORMAL);
     layer("hasDepth", f.hasDepth, ASK_DEPTH);
     layer("hasNoise", f.hasNoise, ASK_NOISE);
+    because("hasBias", f.hasBias ? "" : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it" : "nothing is read from a photon map", "photon maps blur");
     has("hasDiffuse", f.hasDiffuse, "diffuse surfaces");
     because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;

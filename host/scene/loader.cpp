@@ -60,7 +60,7 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto fresnel = reader.find("fresnel")) settings.schlick = fresnel->choice({"exact", "schlick"}) == 1;
     if (const auto layers = reader.find("layers")) {
         settings.layers = 0;
-        for (const Reader& layer : layers->elements(1, layerNames.size(), "an array of 1 to 9 names of layers"))
+        for (const Reader& layer : layers->elements(1, layerNames.size(), "an array of 1 to 10 names of layers"))
             settings.layers |= 1u << layer.choice({layerNames.begin(), layerNames.end()});
     }
     if (const auto seed = reader.find("seed")) settings.seed = seed->integer(0, std::numeric_limits<uint>::max());

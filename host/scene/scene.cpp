@@ -25,6 +25,7 @@ void askFor(uint layers, Features& features) {
     features.hasNormal &= layers >> ASK_NORMAL;
     features.hasDepth &= layers >> ASK_DEPTH;
     features.hasNoise &= layers >> ASK_NOISE;
+    features.hasBias &= layers >> ASK_BIAS;
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
@@ -50,6 +51,7 @@ static void chooseLayers(Features& f, const Settings& settings) {
     f.hasIndirectLayer &= global || (path && f.hasDiffuse);
     f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
     f.hasCausticMap = caustic && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+    f.hasBias &= asksMaps(f) && !settings.showPoints;
 }
 
 Features sceneFeatures(const Scene& scene, const Settings& settings) {
