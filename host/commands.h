@@ -6,6 +6,7 @@ namespace vkpm {
 
 int render(const Options& options);
 int plan(const Options& options);
+int compare(const Options& options);
 int merge(const Options& options);
 int showDevices(const Options& options);
 int bench(const Options& options);

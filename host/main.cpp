@@ -15,6 +15,7 @@ static int run(const Options& options) {
     case Command::Devices: return showDevices(options);
     case Command::Bench: return bench(options);
     case Command::Plan: return plan(options);
+    case Command::Compare: return compare(options);
     case Command::Merge: return merge(options);
     case Command::Render: return render(options);
     }

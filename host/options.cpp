@@ -1,6 +1,7 @@
 /// The command line.
 #include "options.h"
 #include "option_parser.h"
+#include "output/layer_error.h"
 
 namespace vkpm {
 namespace {
@@ -100,6 +101,8 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
 const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
   render                         render without a window; may be left out
   plan --scene FILE [--json]     say what a scene needs, what is left out and why, memory by buffer
+  compare IMAGE REFERENCE [--json]
+                                 error measures between two EXR files, layer by layer
   merge OUT.exr PART.exr...      put parts that --pass-range rendered together
   devices [--json]               list the Vulkan devices and what each lacks
   bench [--json] [--scene FILE] [--device INDEX|NAME]
@@ -173,6 +176,21 @@ Options parsePlan(std::span<const std::string> arguments) {
     if (!options.text.empty()) return options;
     if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm plan --scene FILE");
     options.command = Command::Plan;
+    return options;
+}
+
+Options parseCompare(std::span<const std::string> arguments) {
+    Options options;
+    Parser parser("Measure how far an image is off a reference, layer by layer. Needs no device.", "vkpm compare IMAGE REFERENCE [--json]");
+    parser.files("files", "the image, then its reference (EXR)", [&](auto& values) {
+        if (values.size() != 2)
+            throw InputError(fmt::format("compare: found {} file{}; allowed: two, as in vkpm compare IMAGE REFERENCE", values.size(), values.size() == 1 ? "" : "s"));
+        options.parts.assign(values.begin(), values.end());
+    });
+    parser.flag("--json", "as JSON, with null for what cannot be said", options.json);
+    parser.footer(MEASURES);
+    options.text = parser.parse(arguments);
+    if (options.text.empty()) options.command = Command::Compare;
     return options;
 }
 
@@ -252,13 +270,14 @@ Options parseOptions(int count, const char* const* arguments) {
     if (all[0].starts_with('-')) return parseRender(all);
     if (all[0] == "render") return parseRender(all.subspan(1));
     if (all[0] == "plan") return parsePlan(all.subspan(1));
+    if (all[0] == "compare") return parseCompare(all.subspan(1));
     if (all[0] == "merge") return parseMerge(all.subspan(1));
     if (all[0] == "devices") return parseDevices(all.subspan(1));
     if (all[0] == "bench") return parseBench(all.subspan(1));
     const bool isFile = fs::path(all[0]).has_extension();
-    throw InputError(fmt::format("found command \"{}\"; allowed: render, plan, merge, devices, bench{}", all[0],
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, plan, compare, merge, devices, bench{}", all[0],
                                  isFile ? "; a scene is given as --scene " + all[0]
-                                        : suggestion(all[0], {"render", "plan", "merge", "devices", "bench"})));
+                                        : suggestion(all[0], {"render", "plan", "compare", "merge", "devices", "bench"})));
 }
 
 } // namespace vkpm

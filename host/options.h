@@ -8,7 +8,7 @@
 
 namespace vkpm {
 
-enum class Command { Print, Render, Plan, Merge, Devices, Bench };
+enum class Command { Print, Render, Plan, Compare, Merge, Devices, Bench };
 
 /// What the command line asks for; what it leaves open is absent.
 struct Options {
@@ -16,7 +16,7 @@ struct Options {
     std::string text;             // Print: the help or the version, for stdout
     std::filesystem::path scene;  // bench: empty for its own scene
     std::filesystem::path output; // render, merge: always set, ends in .exr
-    std::vector<std::filesystem::path> parts; // merge; bench: scenes
+    std::vector<std::filesystem::path> parts; // merge; compare: image, reference; bench: scenes
     bool benchFeatures = false;               // bench: what leaving out buys
     bool part = false;                        // merge: into what is a part itself
     std::optional<std::filesystem::path> stats;

@@ -141,6 +141,13 @@ TEST_F(OptionsTest, KnowsTheCommands) {
     EXPECT_EQ(merge.output, "all.exr");
     EXPECT_EQ(merge.parts, (std::vector<fs::path>{"b.exr", "a.exr"}));
     EXPECT_TRUE(merge.part);
+    const Options compare = parse({"compare", "a.exr", "--json", "b.exr"});
+    EXPECT_EQ(compare.command, Command::Compare);
+    EXPECT_EQ(compare.parts, (std::vector<fs::path>{"a.exr", "b.exr"}));
+    EXPECT_TRUE(compare.json);
+    EXPECT_THAT(refusal({"compare", "a.exr"}), AllOf(HasSubstr("found 1 file;"), HasSubstr("vkpm compare IMAGE REFERENCE")));
+    EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "c.exr"}), HasSubstr("found 3 files;"));
+    EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--jsn"}), HasSubstr("did you mean --json?"));
     EXPECT_THAT(refusal({"merge", "all.exr"}), HasSubstr("vkpm merge OUT.exr PART.exr..."));
     EXPECT_THAT(refusal({"merge", "all.png", "a.exr"}), HasSubstr(".exr"));
 }
@@ -168,6 +175,7 @@ TEST_F(OptionsTest, PrintsHelpAndVersion) {
         EXPECT_THAT(options.text, HasSubstr(fmt::format("(default {}x{})", defaults.size.x, defaults.size.y)));
     }
     EXPECT_EQ(parse({"--version"}).text, "vkpm " VKPM_VERSION "\n");
+    EXPECT_THAT(parse({"compare", "--help"}).text, AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
     EXPECT_THAT(parse({"devices", "--help"}).text, AllOf(HasSubstr("--json"), Not(HasSubstr("--scene"))));
 }
 
@@ -221,7 +229,7 @@ TEST_F(OptionsTest, RefusesUnknownWordsAndSuggestsTheNearest) {
     EXPECT_THAT(refusalOfRender({"-q"}), HasSubstr("-q: unknown"));
     EXPECT_THAT(refusal({"devices", "--scene", "box.json"}), HasSubstr("--scene: unknown"));
     EXPECT_THAT(refusal({"rendr"}), AllOf(HasSubstr("rendr"), HasSubstr("did you mean render?")));
-    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, plan, merge, devices, bench"));
+    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, plan, compare, merge, devices, bench"));
     EXPECT_THAT(refusal({"box.json"}), HasSubstr("--scene box.json"));
     EXPECT_THAT(refusalOfRender({"extra"}), HasSubstr("\"extra\""));
 }
