@@ -38,6 +38,10 @@ void addFiles(Parser& parser, Options& options) {
                [&](auto& name, auto& value) { options.output = exrOf(name, value); });
     parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory",
                [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
+    parser.add("--report", "FOLDER", "error against run time while rendering: error.csv, and a page index.html",
+               [&](auto&, auto& value) { options.report = value; });
+    parser.add("--reference", "FILE.exr", "what --report measures the error against; without it, the render's own estimates",
+               [&](auto&, auto& value) { options.reference = value; });
     parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
                [&](auto& name, auto& value) { options.log = outputOf(name, value); });
     parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
@@ -140,6 +144,7 @@ void requireRender(Options& options) {
     if (options.passRange && options.passes && options.passRange->end > *options.passes)
         refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
                fmt::format("passes below the {} of --passes", *options.passes));
+    if (options.reference && !options.report) refuse("--reference", options.reference->string(), "only with --report FOLDER, which shows what is measured");
     if (options.integrator) requirePhotonMap(options, *options.integrator);
 }
 

@@ -21,6 +21,8 @@ struct Options {
     bool part = false;                        // merge: into what is a part itself
     std::optional<std::filesystem::path> stats;
     std::optional<std::filesystem::path> log;
+    std::optional<std::filesystem::path> reference;
+    std::optional<std::filesystem::path> report; // folder
     bool resume = false;
     std::optional<double> checkpoint;   // seconds between saves
     std::optional<double> seconds;      // of rendering

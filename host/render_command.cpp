@@ -4,9 +4,11 @@
 #include "output/atomic_file.h"
 #include "output/error_estimate.h"
 #include "output/event_log.h"
+#include "output/film_image.h"
 #include "output/film_runs.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
+#include "output/report.h"
 #include "output/statistics.h"
 #include "render/noise.h"
 #include "render/radius.h"
@@ -54,6 +56,7 @@ public:
     Job(const Options& opts, const Scene& input, const Settings& set, Gpu& opened)
         : options(opts), scene(input), settings(set), gpu(opened), device(fmt::format("{}, {}", gpu.info().name, gpu.info().driver)), renderer(gpu, scene, settings), log(options.log, options.resume),
           identity(identityOf(scene, settings)), passes(options.passRange.value_or(PassRange{0, settings.passes})) {
+        if (options.report) report.emplace(*options.report, options.reference, settings.size);
         if ((options.seconds || options.targetError) && !options.passes && !options.passRange) passes.end = NONE;
     }
 
@@ -68,7 +71,10 @@ private:
     void requireSame(const RenderFile& file) const;
     bool done() const;
     void estimate(Progress& progress);
-    std::optional<ErrorEstimate> estimateNow() const;
+    std::optional<ErrorEstimate> estimateOf(std::span<const Pixel> pixels) const;
+    double elapsed() const { return secondsSince(begin) - reporting; }
+    void addToReport();
+    void finishReport() const;
     void checkpoint();
     void save();
     Statistics statistics() const;
@@ -92,7 +98,9 @@ private:
     Clock::time_point begin{};      // of rendering
     Clock::time_point saved{};      // last checkpoint
     double renderSeconds = 0;
+    double reporting = 0;               // time that reports took, no part of rendering
     std::optional<ErrorEstimate> error; // the last estimate
+    std::optional<Report> report;
 };
 
 std::uint64_t Job::rays() const {
@@ -143,14 +151,13 @@ bool Job::done() const {
     const uint rendered = renderer.film.passCount() - restored;
     if (interrupted() || passes.begin + renderer.film.passCount() >= passes.end) return true;
     if (options.targetError && error && error->error <= *options.targetError) return true;
-    const double elapsed = secondsSince(begin);
-    return options.seconds && restored + rendered > 0 && elapsed + 0.5 * elapsed / std::max(rendered, 1u) >= *options.seconds;
+    return options.seconds && restored + rendered > 0 && elapsed() + 0.5 * elapsed() / std::max(rendered, 1u) >= *options.seconds;
 }
 
 /// Nothing while there are no batches of passes that could differ, or if nobody asked for noise.
-std::optional<ErrorEstimate> Job::estimateNow() const {
+std::optional<ErrorEstimate> Job::estimateOf(std::span<const Pixel> pixels) const {
     if (noiseFreedom(renderer.film.ranges()) == 0 || !(settings.layers >> ASK_NOISE & 1)) return {};
-    return estimateError(renderer.film.download(), settings.size);
+    return estimateError(pixels, settings.size);
 }
 
 /// Estimates the error at numbers of passes that grow by a quarter: a function of the passes alone, so that a render that is
@@ -160,9 +167,26 @@ void Job::estimate(Progress& progress) {
     uint due = leastPassesForError;
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
-    error = estimateNow();
+    error = estimateOf(renderer.film.download());
     if (error) progress.estimate(error->error);
     if (error) log.write("error", {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
+}
+
+void Job::addToReport() {
+    const auto before = Clock::now();
+    const std::vector<Pixel> pixels = renderer.film.download();
+    ReportRow row{.passes = renderer.film.passCount(), .seconds = earlierSeconds + elapsed(), .rays = rays(), .estimate = estimateOf(pixels)};
+    for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
+        if (*stages) row.photons += (*stages)->ledger.emitted;
+    report->add(std::move(row), filmImage(pixels, settings.size, settings.layers));
+    reporting += secondsSince(before);
+}
+
+void Job::finishReport() const {
+    const std::vector<Pixel> pixels = renderer.film.download();
+    report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, settings.exposure),
+                   {{"scene", options.scene.string()}, {"settings", identity.at("settings")}, {"version", identity.at("version")}, {"device", device},
+                    {"reference", options.reference ? options.reference->string() : "none"}});
 }
 
 void Job::renderPasses() {
@@ -175,12 +199,14 @@ void Job::renderPasses() {
     while (!done()) {
         const uint pass = passes.begin + renderer.film.passCount();
         renderer.renderPass(pass);
+        if (report && Report::due(renderer.film.passCount())) addToReport();
         estimate(progress);
         log.write("pass", {{"pass", pass}, {"rays", rays()}, {"radiusFactor", radiusFactor(pass, settings.alpha)}});
         progress.update(renderer.film.passCount(), rays());
         if (options.checkpoint && !done() && secondsSince(saved) >= *options.checkpoint) checkpoint();
     }
-    renderSeconds = secondsSince(begin);
+    renderSeconds = elapsed();
+    if (report && renderer.film.passCount() > 0) addToReport();
 }
 
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
@@ -234,7 +260,8 @@ int Job::finish() {
     if (nonfinite())
         fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
     save();
-    error = estimateNow();
+    error = estimateOf(renderer.film.download());
+    if (report) finishReport();
     if (error && !options.quiet) fmt::print(stderr, "{}\n", describe(*error));
     log.write("end", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}, {"interrupted", interrupted()}});
     if (options.stats) writeStatistics(*options.stats, statistics());

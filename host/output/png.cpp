@@ -2,10 +2,8 @@
 #include "output/png.h"
 #include "output/atomic_file.h"
 #include <cassert>
-#include <fmt/format.h>
 #include <stb_image_write.h>
 #include <stdexcept>
-#include <vector>
 
 namespace vkpm {
 namespace {
@@ -17,7 +15,7 @@ void append(void* bytes, void* data, int count) {
 
 } // namespace
 
-void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8) {
+std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8) {
     assert(rgba8.size() == size_t(size.x) * size.y);
     std::vector<unsigned char> rgb;
     rgb.reserve(3 * rgba8.size());
@@ -27,8 +25,10 @@ void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uin
     std::vector<char> bytes;
     const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
     if (!stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), 3 * width))
-        throw std::runtime_error(fmt::format("{}: stbi_write_png_to_func: out of memory", path.string()));
-    replaceFile(path, bytes);
+        throw std::runtime_error("stbi_write_png_to_func: out of memory");
+    return bytes;
 }
+
+void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8) { replaceFile(path, encodePng(size, rgba8)); }
 
 } // namespace vkpm

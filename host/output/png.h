@@ -3,8 +3,12 @@
 #include "shared.h"
 #include <filesystem>
 #include <span>
+#include <vector>
 
 namespace vkpm {
+
+/// The bytes of a PNG file of 8-bit sRGB pixels, as writePng takes them.
+std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8);
 
 /// Writes 8-bit sRGB pixels, row by row from the top, red in the lowest byte; the fourth byte is left out.
 /// The file is replaced as a whole. Throws std::runtime_error with file and cause.
