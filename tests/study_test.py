@@ -1,4 +1,4 @@
-"""tools/study on tiny pictures: curves, references that go on, an interrupted matrix and its page, and what is refused."""
+"""tools/study on tiny pictures: curves, references that go on, an interrupted matrix and its page, what is refused."""
 
 import json
 import re
@@ -22,7 +22,7 @@ from study_vkpm import LIGHT, read_image  # noqa: E402
 STUDY = [sys.executable, str(ROOT / "tools/study.py")]
 SCENE = ROOT / "scenes/box.json"
 
-# Stands in for a vkpm with --report, and for an environment that fails once in a while: at the first render of each size.
+# Stands in for a vkpm with --report, and for an environment that fails at the first render of each size.
 STAND_IN = """#!{python}
 import pathlib, subprocess, sys
 words = sys.argv[1:]
@@ -40,8 +40,10 @@ if "--report" in words:
     reported = pathlib.Path(words[at + 3])
     assert words[at + 2] == "--report" and pathlib.Path(words[at + 1]).exists()
     del words[at:at + 4]
-    lines = [f"{{n}},{{n / 100}},{{n}},{{n}},{{layer}},0.1,{{0.8 / n}},0,,,," for n in (1, 2, 4, 8) for layer in ("beauty", "direct")]
-    (reported / "error.csv").write_text("pass,seconds,rays,photons,layer,rmse,relmse,mean_error,flip,noise,bias,error\\n" + "\\n".join(lines))
+    lines = ["pass,seconds,rays,photons,layer,rmse,relmse,mean_error,flip,noise,bias,error"]
+    for n in (1, 2, 4, 8):
+        lines += [f"{{n}},{{n / 100}},{{n}},{{n}},{{layer}},0.1,{{0.8 / n}},0,,,," for layer in ("beauty", "direct")]
+    (reported / "error.csv").write_text("\\n".join(lines))
 sys.exit(subprocess.run(["{vkpm}", *words]).returncode)
 """
 
@@ -110,7 +112,8 @@ def test_means_and_references() -> None:
 
 def test_files(folder: Path) -> None:
     """What error.csv says is read back, unknown numbers and all."""
-    rows = [Row(1, 0.5, 10.0, 20.0, "beauty", 0.1, 0.2, -0.3, flip=0.4), Row(1, 0.5, 10.0, 20.0, "direct", 0.1, 0.0, 0.0)]
+    rows = [Row(1, 0.5, 10.0, 20.0, "beauty", 0.1, 0.2, -0.3, flip=0.4),
+            Row(1, 0.5, 10.0, 20.0, "direct", 0.1, 0.0, 0.0)]
     write_rows(folder / "error.csv", rows)
     back = read_rows(folder / "error.csv")
     assert repr(back) == repr(rows), back
@@ -162,8 +165,8 @@ def finished(output: Path) -> dict[str, int]:
 
 def test_matrix(references: Path, output: Path) -> None:
     """An interrupted matrix goes on without what is finished, and its page has all parts."""
-    words = ["run", "--scenes", SCENE, "--size", "32x32", "--axis", "photons=1000,4000", "--caustic-photons", 1000, "--time", 0.3,
-             "--references", references, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
+    words = ["run", "--scenes", SCENE, "--size", "32x32", "--axis", "photons=1000,4000", "--caustic-photons", 1000,
+             "--time", 0.3, "--references", references, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
     interrupted("a finished cell", lambda: finished(output), *words)
     before = finished(output)
     assert 1 <= len(before) < 3 and not (output / "index.html").exists()
@@ -197,8 +200,8 @@ def check_page(page: str) -> None:
     assert page.count("<svg") == 2 and page.count("</svg>") == 2
     assert page.count('src="data:image/png;base64,') == 1 + 2 * 3  # reference; renders with FLIP maps
     assert not re.search(r'(src|href)="(?!data:|#)|url\((?!#)', page)
-    for word in ("photon photons=1000", "photon photons=4000", "path", "to 1e-2", "to 1e-3", "to 1e-4", "slope", "caustic", "indirect",
-                 "cores", "commit", "vkpm 0.", "is subtracted", "--caustic-photons 1000"):
+    for word in ("photon photons=1000", "photon photons=4000", "path", "to 1e-2", "to 1e-3", "to 1e-4", "slope",
+                 "caustic", "indirect", "cores", "commit", "vkpm 0.", "is subtracted", "--caustic-photons 1000"):
         assert word in page, word
     assert page.count("box path seed=0") == 1  # options about photons do not multiply it
 
@@ -209,8 +212,8 @@ def test_report(references: Path, output: Path) -> None:
     stand_in = output / "vkpm"
     stand_in.write_text(STAND_IN.format(python=sys.executable, vkpm=sys.argv[1], folder=output))
     stand_in.chmod(0o755)
-    messages = study("run", "--scenes", SCENE, "--size", "32x32", "--integrators", "path", "--time", 0.2, "--references", references,
-                     "-o", output, "--vkpm", stand_in, "--quiet")
+    messages = study("run", "--scenes", SCENE, "--size", "32x32", "--integrators", "path", "--time", 0.2,
+                     "--references", references, "-o", output, "--vkpm", stand_in, "--quiet")
     assert messages.count("tried once more") == 2, messages  # sizes: of the check, and of the render
     page = (output / "index.html").read_text()
     assert "relMSE 0.1 after 0.08 s" in messages, messages
@@ -219,7 +222,8 @@ def test_report(references: Path, output: Path) -> None:
 
 def test_refused(references: Path, output: Path) -> None:
     """What is wrong is told with the command line, exits with 2, and leaves no cell."""
-    words = ["run", "--scenes", SCENE, "--size", "32x32", "--references", references, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
+    words = ["run", "--scenes", SCENE, "--size", "32x32", "--references", references, "-o", output,
+             "--vkpm", sys.argv[1], "--quiet"]
     messages = study(*words, "--axis", "kernel=constant,round", code=2)
     assert "--kernel round" in messages and "allowed" in messages, messages
     assert not finished(output)

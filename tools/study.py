@@ -11,8 +11,9 @@ from study_reference import make_references
 from study_run import run_study
 from study_vkpm import VKPM, Failure, say
 
-OF_THE_STUDY = {"-o", "--output", "--scene", "--integrator", "--seed", "--passes", "--pass-range", "--time", "--layers", "--stats", "--log",
-                "--resume", "--checkpoint", "--reference", "--report", "--quiet", "--size", "--help", "--version"}
+OF_THE_STUDY = {"-o", "--output", "--scene", "--size", "--integrator", "--layers", "--seed", "--passes", "--pass-range",
+                "--time", "--reference", "--report", "--resume", "--checkpoint", "--stats", "--log", "--quiet",
+                "--help", "--version"}
 
 
 # Types of options; what they raise, argparse reports.
@@ -75,7 +76,8 @@ def add_common(parser: argparse.ArgumentParser, output: str) -> None:
     """Adds what both commands take."""
     add = parser.add_argument
     add("--size", type=size, default="128x128", metavar="WxH", help="pixels (default 128x128)")
-    add("-o", "--output", type=Path, default=Path(output), metavar="FOLDER", help="for what is made (default: %(default)s, here)")
+    add("-o", "--output", type=Path, default=Path(output), metavar="FOLDER",
+        help="for what is made (default: %(default)s, here)")
     add("--vkpm", default=str(VKPM), metavar="PATH", help="the program under study (default: %(default)s)")
     add("--quiet", action="store_true", help="no progress on stderr")
 
@@ -86,25 +88,30 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
     parser = argparse.ArgumentParser(prog="tools/study", allow_abbrev=False, description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    reference = commands.add_parser("reference", allow_abbrev=False, epilog=epilog, help="make references of scenes to a stated error",
-        description="Render scenes by an unbiased integrator until their error is small enough; Ctrl-C, and the same command goes on.")
+    reference = commands.add_parser(
+        "reference", allow_abbrev=False, epilog=epilog, help="make references of scenes to a stated error",
+        description="Render scenes by an unbiased integrator until their error is small enough. Ctrl-C ends it, and "
+                    "the same command goes on.")
     add = reference.add_argument
     add("--scene", type=scene, nargs="+", required=True, action="extend", metavar="FILE", help="scenes to render")
     add("--error", type=number, default=0.01, metavar="E",
         help="relative standard error to reach: sqrt(mean(noise^2 / (beauty^2 + 0.01))) (default %(default)s)")
     add("--time", type=number, metavar="SECONDS", help="for each scene, at most (default: none)")
-    add("--small", action="store_true", help="also write a small file of the layers of light alone, in half precision, for tests")
+    add("--small", action="store_true",
+        help="also write a small file of the layers of light alone, in half precision, for tests")
     add_common(reference, "references")
 
-    run = commands.add_parser("run", allow_abbrev=False, epilog=epilog, help="render a matrix at equal time, and write a page",
-        description="Render scenes x integrators x settings at equal time against references, and write one page of curves, times "
-                    "and pictures. What is finished is kept; the same command goes on.")
+    run = commands.add_parser(
+        "run", allow_abbrev=False, epilog=epilog, help="render a matrix at equal time, and write a page",
+        description="Render scenes x integrators x settings at equal time, compare with references, and write one page "
+                    "of curves, times and pictures. What is finished is kept; the same command goes on.")
     add = run.add_argument
     add("--scenes", type=list_of(scene), required=True, metavar="FILE,FILE", help="scenes to render")
-    add("--integrators", type=list_of(str), default=["photon", "path"], metavar="A,B", help="integrators (default photon,path)")
+    add("--integrators", type=list_of(str), default=["photon", "path"], metavar="A,B",
+        help="integrators (default photon,path)")
     add("--axis", type=axis, action="append", default=[], metavar="NAME=A,B",
-        help="an option of vkpm and its values, as photons=50000,200000; several are multiplied; those about photons only with "
-             "integrators that have photons")
+        help="an option of vkpm and its values, as photons=50000,200000; several are multiplied, those about photons "
+             "only with integrators that have photons")
     add("--time", type=number, default=60, metavar="SECONDS", help="of rendering, for each cell and seed (default 60)")
     add("--repeat", type=count, default=1, metavar="N", help="seeds; errors are averaged over them (default 1)")
     add("--references", type=Path, default=Path("references"), metavar="FOLDER",

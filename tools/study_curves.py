@@ -38,7 +38,8 @@ def read_rows(path: Path) -> list[Row]:
     with path.open(newline="") as file:
         lines = list(csv.DictReader(file))
     numbers = [name for name in COLUMNS[1:] if name != "layer"]
-    return [Row(passes=int(line["pass"]), layer=line["layer"], **{name: float(line.get(name) or NAN) for name in numbers}) for line in lines]
+    return [Row(int(line["pass"]), layer=line["layer"], **{name: float(line.get(name) or NAN) for name in numbers})
+            for line in lines]
 
 
 def write_rows(path: Path, rows: list[Row]) -> None:
@@ -57,7 +58,7 @@ class Curve:
     errors: np.ndarray
 
     def slope(self) -> float:
-        """Of the line through the logarithms, without the first points if at least three others are there; NaN for a single one."""
+        """Of the line through the logarithms, without the first points if three others are there; NaN for one point."""
         first = LEFT_OUT if len(self.seconds) >= LEFT_OUT + 3 else 0
         if len(self.seconds) - first < 2:
             return NAN
@@ -81,7 +82,8 @@ class Curve:
 
 def layer_curve(rows: list[Row], layer: str) -> Curve:
     """The curve of one layer in rows of one render; errors of zero are left out, as of layers that nothing is in."""
-    points = sorted((row.seconds, row.relmse) for row in rows if row.layer == layer and row.relmse > 0 and row.seconds > 0)
+    points = sorted((row.seconds, row.relmse) for row in rows
+                    if row.layer == layer and row.relmse > 0 and row.seconds > 0)
     return Curve(*np.array(points or np.empty((0, 2))).T)
 
 

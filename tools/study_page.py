@@ -25,7 +25,8 @@ STYLE = """
 @media (prefers-color-scheme: dark) {
   :root { --ground: #15181c; --text: #e4e7eb; --faint: #9aa2ac; --line: #3a4048; --box: #1f2329; }
 }
-body { background: var(--ground); color: var(--text); font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
+body { background: var(--ground); color: var(--text); font: 16px/1.5 system-ui, sans-serif; max-width: 70rem;
+  margin: 2rem auto; padding: 0 1rem; }
 h2 { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 1.5rem; }
 .faint, figcaption { color: var(--faint); font-size: 0.85rem; }
 .wide { overflow-x: auto; }
@@ -34,6 +35,7 @@ th, td { text-align: right; padding: 0.25rem 0.6rem; border-bottom: 1px solid va
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 svg { max-width: 100%; height: auto; color: var(--text); }
 td .faint { display: block; }
+.facts td { text-align: left; white-space: normal; }
 .key { display: inline-block; width: 0.8rem; height: 0.8rem; border-radius: 50%; margin-right: 0.5rem; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .pictures figure { margin: 0; width: 15rem; }
@@ -49,7 +51,8 @@ for (const picture of document.querySelectorAll('img.render')) {
   const own = picture.src, reference = picture.closest('.pictures').querySelector('img.reference').src;
   picture.draggable = false;
   picture.addEventListener('pointerdown', () => { picture.src = reference; });
-  for (const end of ['pointerup', 'pointerleave', 'pointercancel']) picture.addEventListener(end, () => { picture.src = own; });
+  for (const end of ['pointerup', 'pointerleave', 'pointercancel'])
+    picture.addEventListener(end, () => { picture.src = own; });
 }
 """
 
@@ -76,8 +79,9 @@ def time_cell(curve: Curve, target: float) -> str:
 
 def table(head: list[str], rows: list[list[str]]) -> str:
     """A table of texts that are HTML already."""
-    lines = ["".join(f"<th>{word}</th>" for word in head), *("".join(f"<td>{word}</td>" for word in row) for row in rows)]
-    return '<div class="wide"><table>' + "".join(f"<tr>{line}</tr>" for line in lines) + "</table></div>"
+    lines = [("th", head), *(("td", row) for row in rows)]
+    cells = ("".join(f"<{tag}>{word}</{tag}>" for word in words) for tag, words in lines)
+    return '<div class="wide"><table>' + "".join(f"<tr>{line}</tr>" for line in cells) + "</table></div>"
 
 
 # Pictures.
@@ -103,12 +107,13 @@ def pictures(truth: "Truth", cells: list["Cell"]) -> str:
     figures = [f'<figure><img class="reference" alt="reference" src="{picture(developed(beauty, exposure))}">'
                "<figcaption>reference</figcaption></figure>"]
     for cell in cells:
+        passes = cell.facts()["passes"]
         image = cell.image().layers["beauty"]
         errors, mean = flip(image, beauty)
         name = escape(cell.variant.label())
         figures.append(f'<figure><img class="render" alt="{name}" src="{picture(developed(image, exposure))}">'
                        f'<img alt="FLIP map of {name}" src="{picture(errors)}">'
-                       f'<figcaption>{name}: {cell.facts()["passes"]} passes, FLIP {number(mean)}</figcaption></figure>')
+                       f"<figcaption>{name}: {passes} passes, FLIP {number(mean)}</figcaption></figure>")
     return f'<div class="pictures">{"".join(figures)}</div>'
 
 
@@ -128,7 +133,8 @@ class Result:
 
     def name(self, index: int) -> str:
         """With its colour in the plots, as HTML."""
-        return f'<span class="key" style="background: {COLOURS[index % len(COLOURS)]}"></span>{escape(self.variant.label())}'
+        colour = COLOURS[index % len(COLOURS)]
+        return f'<span class="key" style="background: {colour}"></span>{escape(self.variant.label())}'
 
     def mean(self, key: str) -> float:
         """Over seeds, of a number in cell.json."""
@@ -137,34 +143,43 @@ class Result:
 
 def times_table(results: list[Result]) -> str:
     """Times to errors, and what was there at the end."""
-    head = ["relMSE of beauty", *(f"to {target:.0e}".replace("e-0", "e-") for target in TARGETS), "slope", "reached", "FLIP", "passes"]
+    targets = (f"to {target:.0e}".replace("e-0", "e-") for target in TARGETS)
+    head = ["relMSE of beauty", *targets, "slope", "reached", "FLIP", "passes"]
     rows = []
     for index, result in enumerate(results):
         beauty = result.layers["beauty"]
         last = f"{beauty.errors[-1]:.2e}" if len(beauty.errors) else "–"
-        rows.append([result.name(index), *(time_cell(beauty, target) for target in TARGETS), number(beauty.slope(), 2), last,
-                     number(result.mean("flip"), 3), number(result.mean("passes"), 4)])
+        times = (time_cell(beauty, target) for target in TARGETS)
+        rows.append([result.name(index), *times, number(beauty.slope(), 2), last, number(result.mean("flip"), 3),
+                     number(result.mean("passes"), 4)])
     return table(head, rows)
+
+
+def slope_cell(curve: Curve) -> str:
+    """The slope and the last error."""
+    return f"{number(curve.slope(), 2)} &nbsp; {curve.errors[-1]:.1e}" if len(curve.errors) else "–"
 
 
 def slopes_table(results: list[Result], layers: list[str]) -> str:
     """Slope and last error of each layer."""
     rows = []
     for index, result in enumerate(results):
-        curves = [result.layers[layer] for layer in layers]
-        rows.append([result.name(index), *(f"{number(curve.slope(), 2)} &nbsp; {curve.errors[-1]:.1e}" if len(curve.errors) else "–" for curve in curves)])
+        rows.append([result.name(index), *(slope_cell(result.layers[layer]) for layer in layers)])
     return table(["slope, relMSE reached", *layers], rows)
 
 
 def about_reference(truth: "Truth") -> str:
     """How good the reference is."""
     facts = truth.facts
-    made = "; ".join(f"{', '.join(part['layers'])} by {part['passes']} passes of {part['integrator']} in {part['seconds']:.0f} s"
-                     for part in facts.get("parts", ()))
+    made = "; ".join(
+        f"{', '.join(part['layers'])} by {part['passes']} passes of {part['integrator']} in {part['seconds']:.0f} s"
+        for part in facts.get("parts", ()))
     error = facts.get("error")
     stated = f" Its relative standard error is {error:.2g}, {facts['stated_error']:g} was asked for." if error else ""
-    own = f" Its own relMSE, {truth.own_error:.1e}, is subtracted from that of beauty." if truth.own_error else " Its own error is not known."
-    return f'<p class="faint">Reference: {escape(truth.file.name)}{escape(": " + made if made else "")}.{stated}{own}</p>'
+    own = (f" Its own relMSE, {truth.own_error:.1e}, is subtracted from that of beauty, of which nothing below "
+           f"{TRUST * truth.own_error:.1e} is shown." if truth.own_error else " Its own error is not known.")
+    name = truth.file.name + (f": {made}" if made else "")
+    return f'<p class="faint">Reference: {escape(name)}.{stated}{own}</p>'
 
 
 def scene_section(study: "Study", scene: Path) -> str:
@@ -178,7 +193,8 @@ def scene_section(study: "Study", scene: Path) -> str:
         f'<section><h2>{escape(scene.stem)}</h2><p>{escape(about)}</p>', about_reference(truth),
         "<h3>Beauty</h3>", plot_one(lines), times_table(results),
         "<h3>Layers</h3>", plot_layers(lines, layers), slopes_table(results, layers),
-        f"<h3>Pictures after {study.args.time:g} s</h3>", pictures(truth, [result.cells[0] for result in results]), "</section>"])
+        f"<h3>Pictures after {study.args.time:g} s</h3>", pictures(truth, [result.cells[0] for result in results]),
+        "</section>"])
 
 
 # The page.
@@ -190,39 +206,43 @@ def introduction(study: "Study") -> str:
     how = ("vkpm compared the images with the reference itself while it rendered" if study.vkpm.has_report
            else "renders were stopped after 1, 2, 4, … passes, compared, and went on")
     return f"""<h1>Error against time</h1>
-<p>Each line is a way to render a scene at {study.args.size} pixels: an integrator with settings. Each had {study.args.time:g} s of rendering
-(without starting up and saving) for each of {seeds}; {how}. Error is relMSE, the mean over pixels and colours of (image −
-reference)² / (reference² + 0.01). Lower is better, and further left is sooner.</p>
-<p>Both axes are logarithmic, so a straight line is a power of time. Its slope is fitted through all points but the first {LEFT_OUT}: −1 is pure noise
-averaged away, as in path tracing, and steeper while samples complement each other; −2/3 is a photon map whose discs shrink; a line that flattens
-has a bias left, or has met the error of the reference. The expected error of the reference is subtracted from that of beauty, and points below {TRUST} times it are left out; layers are as
-measured. Times to an error are read off the lines between points; “&gt;” means it was not reached. FLIP maps show what an eye would notice, dark for
-nothing; press on a picture to see the reference in its place.</p>"""
+<p>Each line is a way to render a scene at {study.args.size} pixels: an integrator with settings. Each had
+{study.args.time:g} s of rendering (without starting up and saving) for each of {seeds}; {how}. Error is relMSE, the
+mean over pixels and colours of (image − reference)² / (reference² + 0.01). Lower is better, and further left is
+sooner.</p>
+<p>Both axes are logarithmic, so a straight line is a power of time. Its slope is fitted through all points but the
+first {LEFT_OUT}: −1 is pure noise averaged away, as in path tracing, and steeper while samples complement each other;
+−2/3 is a photon map whose discs shrink; a line that flattens has a bias left, or has met the error of the reference.
+The expected error of the reference is subtracted from that of beauty, and points below {TRUST} times it are left out;
+layers are as measured. Times to an error are read off the lines between points; “&gt;” means it was not reached. FLIP
+maps show what an eye would notice, dark for nothing; press on a picture to see the reference in its place.</p>"""
 
 
 def circumstances(study: "Study") -> str:
     """Machine, driver, program."""
+    commits = ", ".join(sorted({cell.facts()["commit"] for cell in study.cells}))
     facts = {"processor": f"{study.machine['cpu']}, {study.machine['cores']} cores", "system": study.machine["system"],
              "device and driver": "; ".join(study.device["devices"]),
-             "program": f"{study.vkpm.version}, commit {', '.join(sorted({cell.facts()['commit'] for cell in study.cells}))}",
+             "program": f"{study.vkpm.version}, commit {commits}",
              "rendered by": ", ".join(sorted({cell.facts()["device"] for cell in study.cells})),
              "page written": datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")}
-    rows = "".join(f'<tr><td>{name}</td><td style="text-align: left; white-space: normal">{escape(text)}</td></tr>' for name, text in facts.items())
-    return f"<table>{rows}</table>"
+    rows = "".join(f"<tr><td>{name}</td><td>{escape(text)}</td></tr>" for name, text in facts.items())
+    return f'<table class="facts">{rows}</table>'
 
 
 def command_lines(study: "Study") -> str:
     """Everything that was run, by cells."""
-    blocks = [f"<h3>{escape(cell.name)}</h3><pre>{escape(chr(10).join(cell.facts()['commands']))}</pre>" for cell in study.cells]
-    return f"<section><h2>Command lines</h2><details><summary>{len(study.cells)} renders</summary>{''.join(blocks)}</details></section>"
+    commands = ((cell.name, "\n".join(cell.facts()["commands"])) for cell in study.cells)
+    blocks = "".join(f"<h3>{escape(name)}</h3><pre>{escape(lines)}</pre>" for name, lines in commands)
+    return f"<h2>Command lines</h2><details><summary>{len(study.cells)} renders</summary>{blocks}</details>"
 
 
 def write_page(study: "Study") -> Path:
     """Writes the page of a study whose cells are all finished, and returns its path."""
     sections = "".join(scene_section(study, scene) for scene in study.args.scenes)
     page = f"""<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>vkpm: error against time</title>
-<style>{STYLE}</style></head><body>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>vkpm: error against time</title><style>{STYLE}</style></head><body>
 {introduction(study)}{circumstances(study)}{sections}{command_lines(study)}
 <script>{SCRIPT}</script></body></html>
 """

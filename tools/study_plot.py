@@ -33,8 +33,8 @@ def inline(figure: Figure) -> str:
     file = io.StringIO()
     figure.savefig(file, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     pyplot.close(figure)
-    text = file.getvalue()
-    return re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.DOTALL).replace(INK, "currentColor")
+    text = re.sub(r"<metadata>.*?</metadata>", "", file.getvalue(), flags=re.DOTALL)
+    return text[text.index("<svg"):].replace(INK, "currentColor")
 
 
 def draw(axes: Axes, lines: list[Line], layer: str, with_labels: bool) -> None:
@@ -42,8 +42,8 @@ def draw(axes: Axes, lines: list[Line], layer: str, with_labels: bool) -> None:
     for index, line in enumerate(lines):
         curve, turn = line.layers[layer], index // len(COLOURS)
         label = f"{line.label}: {curve.slope():+.2f}".replace("nan", "–").replace("+–", "–") if with_labels else None
-        axes.plot(curve.seconds, curve.errors, label=label, color=COLOURS[index % len(COLOURS)], marker=MARKERS[index % len(MARKERS)],
-                  markersize=4, linewidth=1.6, linestyle=DASHES[turn % len(DASHES)])
+        axes.plot(curve.seconds, curve.errors, label=label, color=COLOURS[index % len(COLOURS)], linewidth=1.6,
+                  marker=MARKERS[index % len(MARKERS)], markersize=4, linestyle=DASHES[turn % len(DASHES)])
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.grid(alpha=0.25, linewidth=0.6, color=INK)
@@ -52,8 +52,8 @@ def draw(axes: Axes, lines: list[Line], layer: str, with_labels: bool) -> None:
 def style() -> dict:
     """Settings of matplotlib for all plots."""
     ink = ("text.color", "axes.edgecolor", "axes.labelcolor", "axes.titlecolor", "xtick.color", "ytick.color")
-    return {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
-            **dict.fromkeys(ink, INK)}
+    return {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9, "axes.spines.top": False,
+            "axes.spines.right": False, **dict.fromkeys(ink, INK)}
 
 
 def plot_one(lines: list[Line]) -> str:

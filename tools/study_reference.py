@@ -55,18 +55,25 @@ class PartRender:
         """Of rendering, over all runs."""
         return float(self.image.attributes.get("vkpm/seconds", 0)) if self.image else 0
 
+    def facts(self) -> dict:
+        """What made it."""
+        return {"layers": self.part.layers, "integrator": self.part.integrator, "passes": self.passes(),
+                "seconds": self.seconds(), "seed": self.seed, "device": self.image.attributes.get("vkpm/device")}
+
     def error(self, beauty: np.ndarray) -> float:
         """Its share in the squared relative error of the whole; too few passes do not know it."""
-        return relative_square(self.image.layers["noise"], beauty) if self.image and self.passes() >= FIRST_PASSES else np.inf
+        known = self.image and self.passes() >= FIRST_PASSES
+        return relative_square(self.image.layers["noise"], beauty) if known else np.inf
 
     def grow(self, vkpm: Vkpm, options: list[str], seconds: float | None) -> None:
         """Doubles its passes, as far as time allows; Ctrl-C keeps what was rendered."""
         passes = max(FIRST_PASSES, 2 * self.passes())
         limit = [] if seconds is None else ["--time", f"{seconds:.3f}"]
+        layers, stats = ",".join((*self.part.layers, "noise")), str(self.file.with_suffix(".json"))
         try:
-            vkpm.run([*options, "--integrator", self.part.integrator, "--layers", ",".join((*self.part.layers, "noise")),
-                      "--seed", str(self.seed), "--resume", "--checkpoint", str(CHECKPOINT), "--passes", str(passes), *limit,
-                      "--stats", str(self.file.with_suffix(".json")), "-o", str(self.file)])
+            vkpm.run([*options, "--integrator", self.part.integrator, "--layers", layers, "--seed", str(self.seed),
+                      "--passes", str(passes), *limit, "--resume", "--checkpoint", str(CHECKPOINT),
+                      "--stats", stats, "-o", str(self.file)])
         finally:
             self.image = read_image(self.file) if self.file.exists() else None
 
@@ -88,7 +95,8 @@ class Reference:
         layers = {name: render.image.layers[name] for render in self.parts for name in render.part.layers}
         layers["beauty"] = sum(layers[name] for name in LIGHT)
         layers["noise"] = np.sqrt(sum(render.image.layers["noise"] ** 2 for render in self.parts))
-        kept = {name: value for name, value in self.parts[0].image.attributes.items() if name not in ("vkpm/runs", "vkpm/passRange")}
+        attributes = self.parts[0].image.attributes
+        kept = {name: value for name, value in attributes.items() if name not in ("vkpm/runs", "vkpm/passRange")}
         return Image(layers, kept)
 
     def error(self) -> float:
@@ -98,8 +106,9 @@ class Reference:
 
     def worst(self) -> PartRender:
         """The part that most of the error comes from."""
-        image = self.combined()
-        return max(self.parts, key=lambda part: part.error(image.layers["beauty"])) if image else next(p for p in self.parts if not p.image)
+        if (image := self.combined()) is None:
+            return next(part for part in self.parts if part.image is None)
+        return max(self.parts, key=lambda part: part.error(image.layers["beauty"]))
 
     def grow(self, seconds: float | None) -> None:
         """Renders one step further."""
@@ -110,11 +119,10 @@ class Reference:
         """What is kept beside the image."""
         error = self.error()
         return {"scene": self.scene.name, "scene_digest": scene_digest(self.scene), "size": self.args.size,
-                "stated_error": self.args.error, "error": error if np.isfinite(error) else None, "reached": error <= self.args.error,
+                "stated_error": self.args.error, "error": error if np.isfinite(error) else None,
+                "reached": error <= self.args.error,
                 "measure": "sqrt(mean(noise^2 / (beauty^2 + 0.01))), noise: standard error of the mean",
-                "parts": [{"layers": render.part.layers, "integrator": render.part.integrator, "passes": render.passes(),
-                           "seconds": render.seconds(), "seed": render.seed, "device": render.image.attributes.get("vkpm/device")}
-                          for render in self.parts if render.image],
+                "parts": [render.facts() for render in self.parts if render.image],
                 "options": self.extra, "vkpm": self.vkpm.version}
 
     def save(self) -> None:
@@ -123,8 +131,8 @@ class Reference:
             return
         write_image(self.file, image)
         if self.args.small:
-            names = ("beauty", *LIGHT)
-            write_image(self.small_file(), Image({name: image.layers[name] for name in names}, image.attributes), np.float16)
+            light = {name: image.layers[name] for name in ("beauty", *LIGHT)}
+            write_image(self.small_file(), Image(light, image.attributes), np.float16)
         new = self.file.with_suffix(".json.new")
         new.write_text(json.dumps(self.facts(), indent=2) + "\n")
         new.rename(self.file.with_suffix(".json"))
@@ -137,7 +145,8 @@ class Reference:
 def refine(reference: Reference) -> None:
     """Renders until the error is small enough or the time is over."""
     args, begin = reference.args, time.monotonic()
-    with tqdm(total=100, unit="%", disable=args.quiet or None, bar_format="{desc} |{bar}| {percentage:3.0f} %, {elapsed}") as progress:
+    form = "{desc} |{bar}| {percentage:3.0f} %, {elapsed}"
+    with tqdm(total=100, disable=args.quiet or None, bar_format=form) as progress:
         while True:
             error, passes = reference.error(), sum(part.passes() for part in reference.parts)
             progress.set_description_str(f"{reference.file.stem}: {passes} passes, error {error:.3g}")
@@ -157,13 +166,14 @@ def make_reference(reference: Reference) -> None:
     finally:
         reference.save()
     facts = reference.facts()
-    passes = ", ".join(f"{part['passes']} passes by {part['integrator']} in {part['seconds']:.0f} s" for part in facts["parts"])
+    passes = ", ".join(f"{part['passes']} passes by {part['integrator']} in {part['seconds']:.0f} s"
+                       for part in facts["parts"]) or "no passes"
+    error = "unknown (too few passes)" if facts["error"] is None else f"{facts['error']:.3g}"
+    asked = f"{reference.args.error:g} was asked for"
     if facts["reached"]:
-        say(f"{reference.file}: error {facts['error']:.3g}, {reference.args.error:g} was asked for; {passes}")
+        say(f"{reference.file}: error {error}, {asked}; {passes}")
     else:
-        reached = "unknown (too few passes)" if facts["error"] is None else f"{facts['error']:.3g}"
-        say(f"{reference.file}: the time is over at an error of {reached}, {reference.args.error:g} was asked for; {passes or 'no passes'}; "
-            "the same command goes on")
+        say(f"{reference.file}: the time is over at an error of {error}, {asked}; {passes}; the same command goes on")
     if reference.args.small and reference.small_file().exists():
         say(f"{reference.small_file()}: {reference.small_file().stat().st_size / 1024:.0f} KiB")
 
@@ -173,7 +183,7 @@ def make_references(args: argparse.Namespace, options: list[str]) -> int:
     files = [reference_file(args.output, scene, args.size) for scene in args.scene]
     for file in files:
         if files.count(file) > 1:
-            raise Failure(f"tools/study: --scene: found two scenes of the reference {file.name}; allowed: different file names", 2)
+            raise Failure(f"tools/study: --scene: found two for {file.name}; allowed: different file names", 2)
     vkpm = Vkpm(args.vkpm)
     for scene in args.scene:
         make_reference(Reference(vkpm, scene, args, options))

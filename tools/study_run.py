@@ -47,13 +47,15 @@ class Variant:
 
     def options(self) -> list[str]:
         """What makes it, for vkpm."""
-        return ["--integrator", self.integrator, *(word for name, value in self.values for word in (f"--{name}", value))]
+        words = (word for name, value in self.values for word in (f"--{name}", value))
+        return ["--integrator", self.integrator, *words]
 
 
 def matrix(args: argparse.Namespace) -> list[Variant]:
     """All variants, each once: options about photons do not multiply integrators without photons."""
     variants = {}
-    for scene, integrator, values in product(args.scenes, args.integrators, product(*([(name, v) for v in words] for name, words in args.axis))):
+    axes = ([(name, value) for value in values] for name, values in args.axis)
+    for scene, integrator, values in product(args.scenes, args.integrators, product(*axes)):
         kept = tuple(pair for pair in values if integrator not in WITHOUT_PHOTONS or pair[0] not in ABOUT_PHOTONS)
         variants[Variant(scene, integrator, kept)] = None
     return list(variants)
@@ -70,12 +72,14 @@ class Truth:
         self.image = read_image(self.file)
         self.facts = json.loads(facts.read_text()) if (facts := self.file.with_suffix(".json")).is_file() else {}
         if missing := {"beauty", *LIGHT} - self.image.layers.keys():
-            raise Failure(f"tools/study: {self.file}: found no {', '.join(sorted(missing))}; make it anew by\n    {make}", 2)
+            names = ", ".join(sorted(missing))
+            raise Failure(f"tools/study: {self.file}: found no {names}; make it anew by\n    {make}", 2)
         if self.image.size() != args.size:
             raise Failure(f"tools/study: {self.file}: found {self.image.size()} pixels; allowed: {args.size}", 2)
-        if self.facts and self.facts["scene_digest"] != scene_digest(scene):
-            raise Failure(f"tools/study: {self.file} was made of another state of {scene}; remove it and its .state, and make it anew by\n"
-                          f"    {make}", 2)
+        self.scene_hash = scene_digest(scene)
+        if self.facts and self.facts["scene_digest"] != self.scene_hash:
+            raise Failure(f"tools/study: {self.file} was made of another state of {scene}; remove it and its .state, "
+                          f"and make it anew by\n    {make}", 2)
         self.hash = digest(self.file.read_bytes())
 
     @cached_property
@@ -89,8 +93,8 @@ def machine() -> dict:
     """The processor, its cores that may be used, and the system."""
     info = Path("/proc/cpuinfo")
     model = re.search(r"^model name\s*:\s*(.*)$", info.read_text(), re.MULTILINE) if info.exists() else None
-    return {"cpu": model[1] if model else platform.processor() or platform.machine(), "cores": len(os.sched_getaffinity(0)),
-            "system": f"{platform.system()} {platform.release()}"}
+    return {"cpu": model[1] if model else platform.processor() or platform.machine(),
+            "cores": len(os.sched_getaffinity(0)), "system": f"{platform.system()} {platform.release()}"}
 
 
 def commit() -> str:
@@ -103,9 +107,11 @@ def commit() -> str:
 def chosen_device(devices: list[dict], options: list[str]) -> dict:
     """The one that --device names, else all: vkpm takes the best."""
     words = [word for option in options for word in option.split("=", 1)]
-    wanted = words[words.index("--device") + 1] if "--device" in words[:-1] else None
-    found = [device for device in devices if wanted is not None and (str(device["index"]) == wanted or wanted in device["name"])]
-    return {"devices": [f"{device['name']}, {device['driver']}" for device in found or devices]}
+    if "--device" in words[:-1]:
+        wanted = words[words.index("--device") + 1]
+        named = [device for device in devices if wanted in (str(device["index"]), device["name"])]
+        devices = named or [device for device in devices if wanted in device["name"]] or devices
+    return {"devices": [f"{device['name']}, {device['driver']}" for device in devices]}
 
 
 # What is rendered.
@@ -117,17 +123,18 @@ class Cell:
     def __init__(self, study: "Study", variant: Variant, seed: int):
         self.study, self.variant, self.seed = study, variant, seed
         self.name = f"{variant.name()} seed={seed}"
-        self.folder = study.args.output / "cells" / re.sub(r"[^\w.=-]+", "-", f"{self.name} {scene_digest(variant.scene)[:8]}")
         self.truth = study.truths[variant.scene]
+        self.folder = study.args.output / "cells" / re.sub(r"[^\w.=-]+", "-", self.name)
 
     def options(self, size: str) -> list[str]:
         """Everything for vkpm but how long and where to."""
-        return ["--scene", str(self.variant.scene), "--size", size, *self.variant.options(), "--seed", str(self.seed), *self.study.options]
+        return ["--scene", str(self.variant.scene), "--size", size, *self.variant.options(), "--seed", str(self.seed),
+                *self.study.options]
 
     def identity(self) -> dict:
         """What its numbers depend on."""
         args, study = self.study.args, self.study
-        return {"options": self.options(args.size)[2:], "scene": scene_digest(self.variant.scene), "time": args.time,
+        return {"options": self.options(args.size)[2:], "scene": self.truth.scene_hash, "time": args.time,
                 "reference": self.truth.hash, "vkpm": study.vkpm.hash, "machine": study.machine, **study.device}
 
     def facts(self) -> dict | None:
@@ -154,7 +161,8 @@ class Cell:
         commands = measure_by_vkpm(self) if self.study.vkpm.has_report else measure_by_steps(self)
         image = self.image()
         facts = {"name": self.name, "identity": self.identity(), "commands": commands, "commit": self.study.commit,
-                 "version": self.study.vkpm.version, "passes": int(image.attributes["vkpm/passes"]), "device": image.attributes["vkpm/device"],
+                 "version": self.study.vkpm.version, "device": image.attributes["vkpm/device"],
+                 "passes": int(image.attributes["vkpm/passes"]),
                  "flip": flip(image.layers["beauty"], self.truth.image.layers["beauty"])[1]}
         new = self.folder / "cell.new"
         new.write_text(json.dumps(facts, indent=2) + "\n")
@@ -170,8 +178,9 @@ def curve(cell: Cell) -> list[Row]:
 
 def measure_by_vkpm(cell: Cell) -> list[str]:
     """Has vkpm compare while it renders; returns the command lines."""
-    words = ["--time", f"{cell.study.args.time:g}", "--reference", str(cell.truth.file), "--report", str(cell.folder)]
-    return [cell.study.vkpm.run([*cell.options(cell.study.args.size), *words, "-o", str(cell.folder / "final.exr")])]
+    words = ["--time", f"{cell.study.args.time:g}", "--reference", str(cell.truth.file), "--report", str(cell.folder),
+             "--stats", str(cell.folder / "stats.json"), "-o", str(cell.folder / "final.exr")]
+    return [cell.study.vkpm.run([*cell.options(cell.study.args.size), *words])]
 
 
 def measure_by_steps(cell: Cell) -> list[str]:
@@ -181,8 +190,8 @@ def measure_by_steps(cell: Cell) -> list[str]:
     left = cell.study.args.time
     while left > 0:
         wanted = max(1, 2 * passes)
-        commands.append(cell.study.vkpm.run([*cell.options(cell.study.args.size), "--passes", str(wanted), "--time", f"{left:.3f}", "--resume",
-                                             "--stats", str(stats), "-o", str(output)]))
+        words = ["--passes", str(wanted), "--time", f"{left:.3f}", "--resume", "--stats", str(stats), "-o", str(output)]
+        commands.append(cell.study.vkpm.run([*cell.options(cell.study.args.size), *words]))
         facts = json.loads(stats.read_text())
         passes = facts["passes"]
         seconds += facts["seconds"]["render"]  # of this run alone, as are the others
@@ -201,7 +210,8 @@ def compare(cell: Cell, passes: int, seconds: float, rays: int, photons: int) ->
     image, truth, rows = cell.image().layers, cell.truth.image.layers, []
     for layer in ("beauty", *LIGHT):
         apart = image[layer] - truth[layer]
-        row = Row(passes, seconds, rays, photons, layer, float(np.sqrt(np.mean(apart**2))), relative_square(apart, truth[layer]), float(np.mean(apart)))
+        row = Row(passes, seconds, rays, photons, layer, rmse=float(np.sqrt(np.mean(apart**2))),
+                  relmse=relative_square(apart, truth[layer]), mean_error=float(np.mean(apart)))
         if layer == "beauty":
             row.flip = flip(image[layer], truth[layer])[1]
             row.noise = float(np.sqrt(np.mean(image["noise"] ** 2))) if "noise" in image else row.noise

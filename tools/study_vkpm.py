@@ -88,7 +88,8 @@ def finish(command: list[str]) -> tuple[int, str]:
 
 def failure(command: list[str], code: int, messages: str) -> Failure:
     """What a vkpm said that failed, with its command line."""
-    return Failure(f"tools/study: vkpm ended with code {code}\n    {shlex.join(command)}\n{messages}".rstrip(), 2 if code == 2 else 1)
+    text = f"tools/study: vkpm ended with code {code}\n    {shlex.join(command)}\n{messages}"
+    return Failure(text.rstrip(), 2 if code == 2 else 1)
 
 
 # Images.
@@ -112,11 +113,12 @@ def read_image(path: Path) -> Image:
     try:
         file = OpenEXR.File(str(path), separate_channels=True)
     except RuntimeError as error:
-        raise Failure(f"tools/study: {path}: found what is not a whole EXR file ({error}); remove it and start again", 2) from error
+        raise Failure(f"tools/study: {path}: found no whole EXR file ({error}); remove it and go on", 2) from error
     channels = file.channels()
-    names = {name.removesuffix(".R"): name.removesuffix("R") for name in channels if name.endswith(".R") and not name.startswith("state")}
-    prefixes = {"beauty": ""} | names
-    layers = {layer: np.stack([channels[prefix + c].pixels for c in "RGB"], -1).astype(np.float64) for layer, prefix in prefixes.items()}
+    names = [name.removesuffix(".R") for name in channels if name.endswith(".R") and not name.startswith("state")]
+    prefixes = {"beauty": ""} | {name: name + "." for name in names}
+    layers = {layer: np.stack([channels[prefix + c].pixels for c in "RGB"], -1).astype(np.float64)
+              for layer, prefix in prefixes.items()}
     return Image(layers, {name: value for name, value in file.header().items() if name.startswith("vkpm/")})
 
 
@@ -140,9 +142,10 @@ def relative_square(error: np.ndarray, reference: np.ndarray) -> float:
 
 
 def flip(image: np.ndarray, reference: np.ndarray) -> tuple[np.ndarray, float]:
-    """HDR-FLIP of an image (Andersson et al. 2021): its map in the colours of magma, and its mean; black if FLIP is not defined."""
+    """HDR-FLIP (Andersson et al. 2021): its map in the colours of magma, and its mean; black if it is not defined."""
     luminance = reference @ (0.2126, 0.7152, 0.0722)
     if not 0 < np.median(luminance) < np.max(luminance):  # it finds no exposures
         return np.zeros_like(reference), float("nan")
-    errors, mean, _ = flip_evaluator.evaluate(np.maximum(reference, 0).astype(np.float32), np.maximum(image, 0).astype(np.float32), "HDR")
+    pair = [np.maximum(pixels, 0).astype(np.float32) for pixels in (reference, image)]
+    errors, mean, _ = flip_evaluator.evaluate(*pair, "HDR")
     return errors, float(mean)
