@@ -1,5 +1,6 @@
 """tools/study on tiny pictures: curves, references that go on, an interrupted matrix and its page, what is refused."""
 
+import argparse
 import json
 import re
 import shlex
@@ -10,6 +11,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -17,7 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from study_curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows  # noqa: E402
 from study_page import time_cell  # noqa: E402
-from study_vkpm import LIGHT, read_image  # noqa: E402
+from study_reference import Part, Reference, refine  # noqa: E402
+from study_vkpm import LIGHT, Vkpm, read_image  # noqa: E402
 
 STUDY = [sys.executable, str(ROOT / "tools/study.py")]
 SCENE = ROOT / "scenes/box.json"
@@ -139,7 +142,8 @@ def test_reference(folder: Path) -> None:
     assert before["parts"][0]["seconds"] < after["parts"][0]["seconds"]
 
     image = read_image(folder / "box-32x32.exr").layers
-    assert close(np.sqrt(np.mean(image["noise"] ** 2 / (image["beauty"] ** 2 + 0.01))), after["error"])
+    own = np.sqrt(np.mean(image["noise"] ** 2 / (image["beauty"] ** 2 + 0.01)))
+    assert np.isclose(own, after["error"], rtol=1e-5), (own, after)
     assert np.allclose(image["beauty"], sum(image[layer] for layer in LIGHT), rtol=1e-5)
 
     small = folder / "box-32x32.small.exr"
@@ -153,6 +157,31 @@ def test_reference(folder: Path) -> None:
     assert part.stat().st_mtime_ns == written
     assert "the time is over" in study(*words, "--error", 1e-6, "--time", 0.2)
     assert part.stat().st_mtime_ns > written
+
+    # A changed scene is not what the reference shows.
+    changed = folder / "box.json"
+    changed.write_text(SCENE.read_text().replace("0.725", "0.5"))
+    other = [changed if word == SCENE else word for word in words]
+    assert "another state" in study(*other, "--error", stated, code=2)
+    assert "with options" in study(*words, "--error", stated, "--fresnel", "schlick", code=2)
+
+
+def test_parts(folder: Path) -> None:
+    """Layers may come from several integrators: noise adds up, and the noisiest part is rendered on."""
+    folder.mkdir()
+    parts = (Part(("emission", "direct", "specular", "indirect"), "path"), Part(("caustic",), "path"))
+    args = argparse.Namespace(output=folder, size="32x32", error=0.15, time=None, small=False, quiet=True)
+    with patch("study_reference.PARTS", parts):
+        reference = Reference(Vkpm(sys.argv[1]), SCENE, args, [])
+        refine(reference)
+    image, own = read_image(reference.file).layers, [part.image.layers for part in reference.parts]
+    assert np.allclose(image["caustic"], own[1]["beauty"]) and "caustic" not in own[0]
+    assert np.allclose(image["beauty"], own[0]["beauty"] + own[1]["beauty"], rtol=1e-4, atol=1e-6)
+    assert np.allclose(image["noise"], np.hypot(own[0]["noise"], own[1]["noise"]), rtol=1e-4)
+    facts = json.loads((folder / "box-32x32.json").read_text())
+    assert facts["reached"] and facts["error"] <= 0.15
+    assert [part["layers"] for part in facts["parts"]] == [list(part.layers) for part in parts]
+    assert len({part["seed"] for part in facts["parts"]}) == 2
 
 
 # Matrices.
@@ -239,6 +268,7 @@ def main() -> None:
         folder = Path(name)
         test_files(folder)
         test_reference(folder / "references")
+        test_parts(folder / "parts")
         test_matrix(folder / "references", folder / "matrix")
         test_report(folder / "references", folder / "report")
         test_refused(folder / "references", folder / "refused")

@@ -53,7 +53,10 @@ def list_of(kind: Callable) -> Callable:
     """Reads values with commas between."""
 
     def items(text: str) -> list:
-        return [kind(word) for word in text.split(",") if word]
+        found = [kind(word) for word in text.split(",") if word]
+        if not found:
+            raise argparse.ArgumentTypeError("found nothing; allowed: values with commas between")
+        return found
 
     return items
 

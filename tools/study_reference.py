@@ -84,9 +84,22 @@ class Reference:
     def __init__(self, vkpm: Vkpm, scene: Path, args: argparse.Namespace, options: list[str]):
         self.vkpm, self.scene, self.args, self.extra = vkpm, scene, args, options
         self.file = reference_file(args.output, scene, args.size)
+        self.require_same()
         folder = self.file.with_suffix(".state")
         folder.mkdir(parents=True, exist_ok=True)
         self.parts = [PartRender(part, index, folder) for index, part in enumerate(PARTS)]
+
+    def require_same(self) -> None:
+        """Refuses to go on with a reference of another scene or other options."""
+        facts_file = self.file.with_suffix(".json")
+        if not facts_file.exists():
+            return
+        facts = json.loads(facts_file.read_text())
+        for key, now in (("scene_digest", scene_digest(self.scene)), ("options", self.extra)):
+            if facts[key] != now:
+                what = "of another state of the scene" if key == "scene_digest" else f"with options {facts[key]}"
+                raise Failure(f"tools/study: {self.file} was made {what}; remove it and what lies beside it, or choose "
+                              "another folder by -o", 2)
 
     def combined(self) -> Image | None:
         """The image of all parts: noise adds up by its squares, as the parts are independent."""
