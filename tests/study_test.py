@@ -98,6 +98,10 @@ def test_slopes_and_times() -> None:
     assert time_cell(power, 1e-3).startswith("&gt; 100 s") and "reached 2.0e-03" in time_cell(power, 1e-3)
     assert time_cell(Curve(seconds, 1e-3 / seconds), 1e-2) == "≤ 0.1 s"
 
+    # A dip before the bright paths come does not count.
+    dip = Curve(seconds, np.where(np.arange(11) == 1, 1e-3, power.errors))
+    assert close(dip.time_to(1e-2), power.time_to(1e-2)) and np.isnan(dip.time_to(1e-3))
+
     # The first points, where a line has not begun yet, do not count; a single point has no slope.
     bent = Curve(seconds, np.where(seconds < seconds[2] * 0.99, 1.0, power.errors))
     assert close(bent.slope(), -0.7)
@@ -182,6 +186,9 @@ def test_parts(folder: Path) -> None:
     assert facts["reached"] and facts["error"] <= 0.15
     assert [part["layers"] for part in facts["parts"]] == [list(part.layers) for part in parts]
     assert len({part["seed"] for part in facts["parts"]}) == 2
+    for noisy in (0, 1):
+        own[noisy]["noise"] *= 1e4
+        assert reference.worst() is reference.parts[noisy]
 
 
 # Matrices.

@@ -65,19 +65,19 @@ class Curve:
         return float(np.polyfit(np.log(self.seconds[first:]), np.log(self.errors[first:]), 1)[0])
 
     def time_to(self, target: float) -> float:
-        """Seconds until the error first was so small, between points by their logarithms; NaN if it never was."""
-        below = np.flatnonzero(self.errors <= target)
-        if not len(below):
+        """Seconds from which on the error stays so small, between points by their logarithms; NaN if it does not."""
+        # Not from the first small error: renders that have not met rare bright paths yet look better than they are.
+        after = np.flatnonzero(np.append(True, self.errors > target))[-1]
+        if after == len(self.errors):
             return NAN
-        after = below[0]
         if after == 0:
             return float(self.seconds[0])
         x, y = np.log(self.seconds[after - 1:after + 1]), np.log(self.errors[after - 1:after + 1])
         return float(np.exp(x[0] + (np.log(target) - y[0]) / (y[1] - y[0]) * (x[1] - x[0])))
 
     def starts_below(self, target: float) -> bool:
-        """Whether even the first point was so good that the time is a bound."""
-        return len(self.errors) > 0 and bool(self.errors[0] <= target)
+        """Whether all points were so good that the time to it is a bound."""
+        return len(self.errors) > 0 and bool(np.all(self.errors <= target))
 
 
 def layer_curve(rows: list[Row], layer: str) -> Curve:

@@ -214,8 +214,9 @@ sooner.</p>
 first {LEFT_OUT}: −1 is pure noise averaged away, as in path tracing, and steeper while samples complement each other;
 −2/3 is a photon map whose discs shrink; a line that flattens has a bias left, or has met the error of the reference.
 The expected error of the reference is subtracted from that of beauty, and points below {TRUST} times it are left out;
-layers are as measured. Times to an error are read off the lines between points; “&gt;” means it was not reached. FLIP
-maps show what an eye would notice, dark for nothing; press on a picture to see the reference in its place.</p>"""
+layers are as measured. Times to an error say from when on it stays so small, read off the lines between points; “&gt;”
+means it was not reached. FLIP maps show what an eye would notice, dark for nothing; press on a picture to see the
+reference in its place.</p>"""
 
 
 def circumstances(study: "Study") -> str:
