@@ -142,7 +142,7 @@ def test_reference(folder: Path) -> None:
     messages = study(*words, "--error", stated, "--small")
     after = json.loads(facts_file.read_text())
     assert after["reached"] and after["error"] <= stated == after["stated_error"], (after, messages)
-    assert before["parts"][0]["passes"] < after["parts"][0]["passes"] <= 8 * before["parts"][0]["passes"]
+    assert before["parts"][0]["passes"] < after["parts"][0]["passes"]
     assert before["parts"][0]["seconds"] < after["parts"][0]["seconds"]
 
     image = read_image(folder / "box-32x32.exr").layers
@@ -202,7 +202,7 @@ def finished(output: Path) -> dict[str, int]:
 def test_matrix(references: Path, output: Path) -> None:
     """An interrupted matrix goes on without what is finished, and its page has all parts."""
     words = ["run", "--scenes", SCENE, "--size", "32x32", "--axis", "photons=1000,4000", "--caustic-photons", 1000,
-             "--time", 0.3, "--references", references, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
+             "--time", 1, "--references", references, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
     interrupted("a finished cell", lambda: finished(output), *words)
     before = finished(output)
     assert 1 <= len(before) < 3 and not (output / "index.html").exists()
