@@ -50,7 +50,7 @@ TEST_F(Drivers, RenderTheSamePicture) {
     const fs::path lavapipe = findFile("/usr/share/vulkan/icd.d/lvp_icd*.json");
     const fs::path swiftShader = findFile("/usr/lib*/chromium*/vk_swiftshader_icd.json");
     ASSERT_FALSE(lavapipe.empty()) << "lavapipe is not installed; tools/setup installs it (mesa-vulkan-drivers)";
-    ASSERT_FALSE(swiftShader.empty()) << "SwiftShader is not installed; tools/setup installs it (chromium-common)";
+    ASSERT_FALSE(swiftShader.empty()) << "SwiftShader is not installed; tools/setup installs it (chromium)";
 
     const Layers expected = renderWith(lavapipe, "llvmpipe");
     const Layers found = renderWith(swiftShader, "SwiftShader");

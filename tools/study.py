@@ -1,0 +1,150 @@
+"""Studies of error against time: references by long renders, and matrices of renders with a page of results."""
+
+import argparse
+import re
+import signal
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from study_reference import make_references
+from study_run import run_study
+from study_vkpm import VKPM, Failure, say
+
+OF_THE_STUDY = {"-o", "--output", "--scene", "--size", "--integrator", "--layers", "--seed", "--passes", "--pass-range",
+                "--time", "--reference", "--report", "--resume", "--checkpoint", "--stats", "--log", "--quiet",
+                "--help", "--version"}
+
+
+# Types of options; what they raise, argparse reports.
+
+
+def number(text: str) -> float:
+    """A number above zero."""
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"found {text}; allowed: a number above 0")
+    return value
+
+
+def count(text: str) -> int:
+    """Reads a count as vkpm does, 2000 or 2e3."""
+    value = number(text)
+    if not value.is_integer():
+        raise argparse.ArgumentTypeError(f"found {text}; allowed: a whole number above 0")
+    return int(value)
+
+
+def size(text: str) -> str:
+    """Checks a size in pixels."""
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", text):
+        raise argparse.ArgumentTypeError(f"found {text}; allowed: WxH, as 128x128")
+    return text
+
+
+def scene(text: str) -> Path:
+    """A scene file, which exists."""
+    if not Path(text).is_file():
+        raise argparse.ArgumentTypeError(f"found {text}; allowed: a scene file that exists")
+    return Path(text)
+
+
+def list_of(kind: Callable) -> Callable:
+    """Reads values with commas between."""
+
+    def items(text: str) -> list:
+        found = [kind(word) for word in text.split(",") if word]
+        if not found:
+            raise argparse.ArgumentTypeError("found nothing; allowed: values with commas between")
+        return found
+
+    return items
+
+
+def axis(text: str) -> tuple[str, list[str]]:
+    """Reads an axis, NAME=VALUE,VALUE."""
+    name, _, values = text.removeprefix("--").partition("=")
+    words = [word for word in values.split(",") if word]
+    if not name or not words:
+        raise argparse.ArgumentTypeError(f"found {text}; allowed: NAME=VALUE,VALUE, as photons=50000,200000")
+    if f"--{name}" in OF_THE_STUDY:
+        raise argparse.ArgumentTypeError(f"found {name}, which the study sets itself; allowed: other options of vkpm")
+    return name, words
+
+
+# The command line.
+
+
+def add_common(parser: argparse.ArgumentParser, output: str) -> None:
+    """Adds what both commands take."""
+    add = parser.add_argument
+    add("--size", type=size, default="128x128", metavar="WxH", help="pixels (default 128x128)")
+    add("-o", "--output", type=Path, default=Path(output), metavar="FOLDER",
+        help="for what is made (default: %(default)s, here)")
+    add("--vkpm", default=str(VKPM), metavar="PATH", help="the program under study (default: %(default)s)")
+    add("--quiet", action="store_true", help="no progress on stderr")
+
+
+def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
+    """Returns the study's own arguments, and those that go to vkpm."""
+    epilog = "Other options go to vkpm: --device, --fresnel, ... (tools/run --help)."
+    parser = argparse.ArgumentParser(prog="tools/study", allow_abbrev=False, description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    reference = commands.add_parser(
+        "reference", allow_abbrev=False, epilog=epilog, help="make references of scenes to a stated error",
+        description="Render scenes by an unbiased integrator until their error is small enough. Ctrl-C ends it, and "
+                    "the same command goes on.")
+    add = reference.add_argument
+    add("--scene", type=scene, nargs="+", required=True, action="extend", metavar="FILE", help="scenes to render")
+    add("--error", type=number, default=0.01, metavar="E",
+        help="relative standard error to reach: sqrt(mean(noise^2 / (beauty^2 + 0.01))) (default %(default)s)")
+    add("--time", type=number, metavar="SECONDS", help="for each scene, at most (default: none)")
+    add("--small", action="store_true",
+        help="also write a small file of the layers of light alone, in half precision, for tests")
+    add_common(reference, "references")
+
+    run = commands.add_parser(
+        "run", allow_abbrev=False, epilog=epilog, help="render a matrix at equal time, and write a page",
+        description="Render scenes x integrators x settings at equal time, compare with references, and write one page "
+                    "of curves, times and pictures. What is finished is kept; the same command goes on.")
+    add = run.add_argument
+    add("--scenes", type=list_of(scene), required=True, metavar="FILE,FILE", help="scenes to render")
+    add("--integrators", type=list_of(str), default=["photon", "path"], metavar="A,B",
+        help="integrators (default photon,path)")
+    add("--axis", type=axis, action="append", default=[], metavar="NAME=A,B",
+        help="an option of vkpm and its values, as photons=50000,200000; several are multiplied, those about photons "
+             "only with integrators that have photons")
+    add("--time", type=number, default=60, metavar="SECONDS", help="of rendering, for each cell and seed (default 60)")
+    add("--repeat", type=count, default=1, metavar="N", help="seeds; errors are averaged over them (default 1)")
+    add("--references", type=Path, default=Path("references"), metavar="FOLDER",
+        help="of tools/study reference (default: %(default)s, here)")
+    add_common(run, "study")
+
+    args, options = parser.parse_known_args()
+    for name in (option.split("=")[0] for option in options):
+        if name in OF_THE_STUDY:
+            parser.error(f"{name} is set by the study itself; allowed: other options of vkpm")
+    return args, options
+
+
+def main() -> int:
+    """Runs a command, and tells how it failed."""
+    args, options = parse_arguments()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
+    try:
+        return {"reference": make_references, "run": run_study}[args.command](args, options)
+    except Failure as failure:
+        say(str(failure))
+        return failure.code
+    except OSError as error:
+        say(f"tools/study: {error}")
+        return 1
+    except KeyboardInterrupt:
+        say("tools/study: interrupted; what is finished is kept, and the same command goes on with it")
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())
