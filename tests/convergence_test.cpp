@@ -1,18 +1,13 @@
 /// How error falls with passes: as 1 / sqrt(n) where light is path traced, as the cube root where it is gathered in shrinking
 /// discs (Knaus & Zwicker 2011), and not below the bias of discs that stay.
+#include "lamp_in_mirror.h"
 #include "output/exr.h"
 #include "render_support.h"
-#include <numbers>
 #include <numeric>
 #include <gtest/gtest.h>
 
 namespace vkpm {
 namespace {
-
-using nlohmann::json;
-
-/// Means of a layer by pixel, channels one after another.
-using Values = std::vector<double>;
 
 Values layerOf(const std::vector<Pixel>& pixels, uint layer) {
     Values values;
@@ -71,47 +66,6 @@ void expectPathTraced(double slope) {
 }
 
 // ---- A closed form: a lamp seen by a floor in a mirror -----------------------------------------
-// The lamp at height 0.3 shines up at a mirror in the ceiling at 0.6. The floor is lit as by the lamp's image at height 0.9.
-
-const double imageHeight = 0.9, lampLow = -0.6, lampHigh = -0.4, radiance = 10;
-
-json lampInMirror() {
-    return {{"camera", {{"origin", {0.2, 0.55, 1.0}}, {"target", {0.2, 0, 0}}, {"up", {0, 1, 0}}, {"fieldOfView", 25}}},
-            {"film", {{"size", {12, 12}}}},
-            {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 1.0}}}, {"mirror", {{"type", "mirror"}, {"reflectance", 1}}}}},
-            {"shapes",
-             {{{"type", "rectangle"}, {"corner", {-3, 0, 3}}, {"edges", {{6, 0, 0}, {0, 0, -6}}}, {"material", "white"}},
-              {{"type", "rectangle"}, {"corner", {-3, 0.6, -3}}, {"edges", {{6, 0, 0}, {0, 0, 6}}}, {"material", "mirror"}},
-              {{"type", "rectangle"}, {"corner", {lampLow, 0.3, 0.1}}, {"edges", {{lampHigh - lampLow, 0, 0}, {0, 0, -0.2}}}, {"emission", radiance}}}}};
-}
-
-// Form factor from a point to a parallel rectangle with a corner above it, sides x and y at distance 1 (Howell's catalogue, B-3).
-double cornerFactor(double x, double y) {
-    const double u = std::sqrt(1 + x * x), v = std::sqrt(1 + y * y);
-    return (x / u * std::atan(y / u) + y / v * std::atan(x / v)) / (2 * std::numbers::pi);
-}
-
-double floorRadiance(double x, double z) {
-    const auto corner = [&](double lampX, double lampZ) { return cornerFactor((lampX - x) / imageHeight, (lampZ - z) / imageHeight); };
-    return radiance * (corner(lampHigh, 0.1) - corner(lampLow, 0.1) - corner(lampHigh, -0.1) + corner(lampLow, -0.1));
-}
-
-// Means over pixels, from 8 x 8 points of each.
-Values floorTruth(const Scene& scene, uvec2 size) {
-    const Camera camera = pinholeCamera(scene.view, size);
-    Values values;
-    for (uint pixel = 0; pixel < size.x * size.y; pixel++) {
-        double sum = 0;
-        for (uint k = 0; k < 64; k++) {
-            const double x = (pixel % size.x + (k % 8 + 0.5) / 8) / size.x, y = (pixel / size.x + (k / 8 + 0.5) / 8) / size.y;
-            const glm::dvec3 direction = glm::dvec3(camera.forward) + (2 * x - 1) * glm::dvec3(camera.right) + (1 - 2 * y) * glm::dvec3(camera.up);
-            const glm::dvec3 point = glm::dvec3(camera.origin) - direction * (double(camera.origin.y) / direction.y);
-            sum += floorRadiance(point.x, point.z) / 64;
-        }
-        for (int c = 0; c < 3; c++) values.push_back(sum);
-    }
-    return values;
-}
 
 TEST(Convergence, OfALampInAMirror) {
     const Scene scene = loadJson(lampInMirror());
@@ -138,15 +92,6 @@ TEST(Convergence, OfALampInAMirror) {
 
 // ---- The box, against a long render of it in tests/data ------------------------------------------
 // vkpm --scene scenes/box.json --size 48x48 --passes 1024 --photons 1e5 --caustic-photons 1e5 --seed 4711
-
-Values referenceLayer(const Image& image, const std::string& layer) {
-    Values values(3 * std::size_t(image.size.x) * image.size.y);
-    for (const Channel& channel : image.channels)
-        for (std::size_t c = 0; c < 3; c++)
-            if (channel.name == layer + "." + "RGB"[c])
-                for (std::size_t i = 0; i < channel.values.size(); i++) values[3 * i + c] = channel.values[i];
-    return values;
-}
 
 TEST(Convergence, OfTheBox) {
     const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "box_reference.exr");

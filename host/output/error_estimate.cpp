@@ -71,6 +71,7 @@ struct Squares {
     double noise = 0;
     double bias = 0;
     double count = 0;
+    double variance = 0; // of the sum of squared errors
 };
 
 double rootOfMean(double sum, double count) { return std::sqrt(std::max(0.0, sum / count)); }
@@ -86,6 +87,7 @@ ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
         const uint x = static_cast<uint>(i % size.x), y = static_cast<uint>(i / size.x);
         const dvec3 truth = likelyTruth(colors, pixels[i], size, x, y);
         const Squares pixel{relative(dvec3(pixels[i].noise) * dvec3(pixels[i].noise), truth), squaredBias(pixels[i]) / (luminance(truth) * luminance(truth) + 0.01), 1};
+        all.variance += 2 * pixel.noise * pixel.noise;
         for (Squares* sum : {&blocks[y * parts / size.y * parts + x * parts / size.x], &all}) {
             sum->noise += pixel.noise;
             sum->bias += pixel.bias;
@@ -103,7 +105,8 @@ ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
         spread += apart * apart;
         used++;
     }
-    const double margin = used > 1 ? oneSided90 * std::sqrt(spread * used / (used - 1)) / all.count : 0;
+    const double parting = used > 1 ? spread * used / (used - 1) : 0;
+    const double margin = oneSided90 * std::sqrt(parting + all.variance) / all.count;
     return {parts.noise, parts.bias, std::sqrt(square + margin)};
 }
 

@@ -15,8 +15,9 @@ struct ErrorEstimate {
     double error = 0; // both, and a margin: the true error is below with a probability of 0.9
 };
 
-/// The estimate of a picture whose pixels have noise and bias. The margin comes from how much the parts of the picture, 8 x 8 of them,
-/// differ: what few pixels decide is less sure than what all of them say.
+/// The estimate of a picture whose pixels have noise and bias. The margin has two parts: how much the parts of the picture, 8 x 8 of
+/// them, differ, since what few pixels decide is less sure than what all of them say; and how much the sum of squares of this one
+/// picture may be off its expectation, if each pixel's error is normally distributed.
 ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size);
 
 /// Half the length of the interval around a channel of a pixel that has the truth in it with a probability of 0.9, for noise with

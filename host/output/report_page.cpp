@@ -182,9 +182,9 @@ std::vector<Curve> curvesOf(const std::vector<ReportRow>& rows, double LayerErro
     }
     std::vector<Curve> curves;
     if (layers.contains("beauty")) curves.push_back(layers["beauty"]);
-    if (estimates) curves.push_back(estimate);
     for (auto& [name, curve] : layers)
         if (name != "beauty") curves.push_back(curve);
+    if (estimates) curves.push_back(estimate); // last, so that layers have the same colours in all diagrams
     return curves;
 }
 

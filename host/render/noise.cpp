@@ -9,6 +9,10 @@ using glm::dvec3;
 
 const int reach = 3; // pixels around
 
+// Of the gain from fine to coarse batches, in its logarithm, what goes on from coarse batches to the whole: measured on the shipped
+// scenes, where the spread of ten seeds asks for 0.55 to 1.
+const double lasting = 0.75;
+
 void SpreadSum::add(PassRange run, uint size, const dvec3& sum, const dvec3& fine, const dvec3& coarse) {
     const double w = double(length(run)) / size;
     const dvec3 apart = sum / double(length(run)) - mean;
@@ -74,7 +78,7 @@ std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::s
     coarse = sumsAround(coarse, size);
     fine = sumsAround(fine, size);
     // Batches four times as large: one step. Both sizes count by their degrees of freedom.
-    const double steps = std::log(levels.coarse.weight) / std::log(4.0);
+    const double steps = lasting * std::log(levels.coarse.weight) / std::log(4.0);
     const double a = levels.coarse.count - 1, b = levels.fine.count - 1;
     for (std::size_t i = 0; i < spreads.size(); i++) {
         const double gain = fine[i] > 0 ? std::min(coarse[i] / fine[i], 1.0) : 1;

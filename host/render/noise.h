@@ -27,7 +27,7 @@ private:
 
 /// Standard errors of the means of pixels from their spreads, row by row. Points of a low-discrepancy sequence complement each other:
 /// the larger a batch, the better its mean, compared to independent points. How much is measured from fine to coarse batches in
-/// the 7 x 7 pixels around, and supposed to go on from coarse batches to the whole.
+/// the 7 x 7 pixels around, and supposed to go on, if less, from coarse batches to the whole.
 std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::span<const PassRange> runs);
 
 /// Degrees of freedom of these errors; 0 if there is no estimate. An interval of Student's t with as many covers the

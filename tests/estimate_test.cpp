@@ -1,0 +1,122 @@
+/// Whether renders know how wrong they are: intervals of pixels and the error of pictures against closed forms and a long render.
+#include "lamp_in_mirror.h"
+#include "output/error_estimate.h"
+#include "output/exr.h"
+#include "render/noise.h"
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace vkpm {
+namespace {
+
+struct Judged {
+    double inside = 0; // part of the channels of noisy pixels whose interval holds the truth
+    double error = 0;  // root of relmse
+    ErrorEstimate estimate;
+    Values bias; // estimated, by pixel and channel
+};
+
+double beautyAt(const Pixel& pixel, int c) {
+    double sum = 0;
+    for (const vec3& layer : pixel.mean.layers) sum += double(layer[c]);
+    return sum;
+}
+
+Judged judge(const Scene& scene, const Settings& settings, uint passes, const Values& truth) {
+    Renderer renderer(testGpu(), scene, settings);
+    for (uint pass = 0; pass < passes; pass++) renderer.renderPass(pass);
+    const std::vector<Pixel> pixels = renderer.film.download();
+    const uint freedom = noiseFreedom(renderer.film.ranges());
+    Judged result;
+    result.estimate = estimateError(pixels, settings.size);
+    double counted = 0;
+    for (std::size_t i = 0; i < pixels.size(); i++)
+        for (int c = 0; c < 3; c++) {
+            const double right = truth[3 * i + std::size_t(c)], apart = beautyAt(pixels[i], c) - right;
+            result.error += apart * apart / (right * right + 0.01) / double(truth.size());
+            result.bias.push_back(double(pixels[i].mean.bias[c]));
+            if (pixels[i].noise[c] == 0) continue; // nothing there is random
+            counted++;
+            result.inside += std::abs(apart) <= double(halfInterval(pixels[i], freedom)[c]);
+        }
+    result.inside /= counted;
+    result.error = std::sqrt(result.error);
+    return result;
+}
+
+/// Judges renders of several seeds: intervals nine times of ten, and pictures at least as good as they say.
+void expectTrue(const char* name, const Scene& scene, Settings settings, uint passes, const Values& truth, uint seeds) {
+    double inside = 0, better = 0;
+    Judged last;
+    for (uint seed = 0; seed < seeds; seed++) {
+        settings.seed = 100 + seed;
+        last = judge(scene, settings, passes, truth);
+        inside += last.inside / seeds;
+        better += double(last.error <= last.estimate.error) / seeds;
+    }
+    std::printf("%s, %u passes: %.3f of the intervals hold the truth, %.2f of the pictures are as good as they say (last: %.4f; %s)\n", name, passes,
+                inside, better, last.error, describe(last.estimate).c_str());
+    EXPECT_GE(inside, 0.85) << name;
+    EXPECT_LE(inside, 0.95) << name;
+    EXPECT_GE(better, 0.8) << name; // of 20 draws with a probability of 0.9, fewer than 16 come once in 25 times
+}
+
+TEST(Estimate, IsTrueOfTheBox) {
+    const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "box_reference.exr");
+    const Scene scene = shippedScene("box");
+    Settings settings = scene.settings;
+    settings.size = reference.size;
+    settings.photons = settings.causticPhotons = 20'000;
+    expectTrue("box", scene, settings, 16, referenceLayer(reference, ""), 20);
+    expectTrue("box", scene, settings, 40, referenceLayer(reference, ""), 5);
+}
+
+TEST(Estimate, IsTrueOfALampInAMirror) {
+    const Scene scene = loadJson(lampInMirror());
+    Settings settings = scene.settings;
+    settings.size = {24, 24};
+    settings.layers = 1u << LAYER_CAUSTIC | 1u << ASK_NOISE | 1u << ASK_BIAS;
+    settings.photons = 0;
+    settings.causticPhotons = 10'000;
+    settings.causticRadius = 0.05f;
+    expectTrue("lamp in a mirror, gathered", scene, settings, 32, floorTruth(scene, settings.size), 10);
+    settings.integrator = INTEGRATOR_PATH;
+    expectTrue("lamp in a mirror, path traced", scene, settings, 2048, floorTruth(scene, settings.size), 4);
+}
+
+// Discs of a fixed width: what is left of the error after many passes is bias, and estimated as that.
+TEST(Estimate, OfBiasIsTheBlurOfFixedDiscs) {
+    const Scene scene = loadJson(lampInMirror());
+    Settings settings = scene.settings;
+    settings.layers = 1u << LAYER_CAUSTIC | 1u << ASK_NOISE | 1u << ASK_BIAS;
+    settings.photons = 0;
+    settings.causticPhotons = 100'000;
+    settings.alpha = 1;
+    settings.causticRadius = 0.2f;
+    const Values truth = floorTruth(scene, settings.size);
+    const Judged wide = judge(scene, settings, 128, truth);
+    std::printf("fixed discs: off by %.4f; %s\n", wide.error, describe(wide.estimate).c_str());
+    EXPECT_NEAR(wide.estimate.bias, wide.error, 0.2 * wide.error);
+    EXPECT_LT(wide.estimate.noise, 0.5 * wide.error);
+    EXPECT_LE(wide.error, wide.estimate.error);
+
+    // Pixel by pixel, of the right sign.
+    const Judged again = judge(scene, settings, 128, truth);
+    double product = 0, square = 0;
+    Renderer renderer(testGpu(), scene, settings);
+    for (uint pass = 0; pass < 128; pass++) renderer.renderPass(pass);
+    const std::vector<Pixel> pixels = renderer.film.download();
+    for (std::size_t i = 0; i < truth.size(); i++) {
+        const double off = beautyAt(pixels[i / 3], int(i % 3)) - truth[i];
+        product += off * again.bias[i];
+        square += again.bias[i] * again.bias[i];
+    }
+    EXPECT_NEAR(product / square, 1, 0.25);
+
+    // Half as wide, a quarter of the bias.
+    settings.causticRadius = 0.1f;
+    EXPECT_NEAR(judge(scene, settings, 128, truth).estimate.bias, 0.25 * wide.estimate.bias, 0.05 * wide.estimate.bias);
+}
+
+} // namespace
+} // namespace vkpm
