@@ -122,7 +122,7 @@ TEST_F(ReportProgram, WithoutAReferenceHasTheRendersOwnEstimates) {
 
 TEST_F(ReportProgram, RefusesWhatCannotBe) {
     ASSERT_EQ(run(render + "--passes 1 -o a.exr").code, 0);
-    Result result = run(render + "-o b.exr --reference a.exr --report report --size 24x24");
+    Result result = run("--scene " + scene("box") + " -o b.exr --reference a.exr --report report --size 24x24");
     EXPECT_EQ(result.code, 2);
     EXPECT_THAT(result.output, AllOf(HasSubstr("--reference"), HasSubstr("32x24"), HasSubstr("24x24")));
     result = run(render + "-o b.exr --reference missing.exr --report report");
