@@ -54,7 +54,7 @@ TEST_F(Drivers, RenderTheSamePicture) {
 
     const Layers expected = renderWith(lavapipe, "llvmpipe");
     const Layers found = renderWith(swiftShader, "SwiftShader");
-    EXPECT_EQ(expected.size(), 10u);
+    EXPECT_EQ(expected.size(), 11u);
     ASSERT_EQ(expected.size(), found.size());
     for (const auto& [layer, xs] : expected) {
         const auto& ys = found.at(layer);
