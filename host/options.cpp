@@ -9,7 +9,8 @@ namespace {
 const Words INTEGRATORS{{"photon", INTEGRATOR_PHOTON},
                         {"path", INTEGRATOR_PATH},
                         {"direct", INTEGRATOR_DIRECT},
-                        {"photon-map", INTEGRATOR_PHOTON_MAP}};
+                        {"photon-map", INTEGRATOR_PHOTON_MAP},
+                        {"light", INTEGRATOR_LIGHT}};
 const Words MAPS{{"global", 0}, {"caustic", 1}};
 const Words SHOWS{{"estimate", 0}, {"points", 1}};
 const Words KERNELS{{"constant", KERNEL_CONSTANT},

@@ -29,9 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-PhotonCounts countsOf(const std::optional<MapStages>& stages) {
-    if (!stages) return {};
-    const PhotonLedger& l = stages->ledger;
+PhotonCounts countsOf(const PhotonLedger& l) {
     return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
 }
 
@@ -105,16 +103,14 @@ private:
 
 std::uint64_t Job::rays() const {
     std::uint64_t count = renderer.rays().paths + renderer.rays().shadow;
-    for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
-        if (*stages) count += (*stages)->ledger.rays;
+    for (const MapKind kind : {MapKind::global, MapKind::caustic}) count += renderer.photons(kind).rays;
     return count;
 }
 
 std::uint64_t Job::nonfinite() const {
     std::uint64_t count = earlierNonfinite;
     for (const std::uint64_t layer : renderer.film.nonfinite()) count += layer;
-    for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
-        if (*stages) count += (*stages)->ledger.nonfinite;
+    for (const MapKind kind : {MapKind::global, MapKind::caustic}) count += renderer.photons(kind).nonfinite;
     return count;
 }
 
@@ -176,8 +172,7 @@ void Job::addToReport() {
     const auto before = Clock::now();
     const std::vector<Pixel> pixels = renderer.film.download();
     ReportRow row{.passes = renderer.film.passCount(), .seconds = earlierSeconds + elapsed(), .rays = rays(), .estimate = estimateOf(pixels)};
-    for (const auto* stages : {&renderer.globalMap(), &renderer.causticMap()})
-        if (*stages) row.photons += (*stages)->ledger.emitted;
+    for (const MapKind kind : {MapKind::global, MapKind::caustic}) row.photons += renderer.photons(kind).emitted;
     report->add(std::move(row), filmImage(pixels, settings.size, settings.layers));
     reporting += secondsSince(before);
 }
@@ -239,8 +234,8 @@ Statistics Job::statistics() const {
         if (bytes > 0) s.buffers.emplace_back(name, bytes);
     s.deviceBytes = gpu.peakBytes;
     s.rays = rays();
-    s.global = countsOf(renderer.globalMap());
-    s.caustic = countsOf(renderer.causticMap());
+    s.global = countsOf(renderer.photons(MapKind::global));
+    s.caustic = countsOf(renderer.photons(MapKind::caustic));
     s.globalRadii = globalRadii();
     s.causticRadii = causticRadii();
     s.radiusFactor = radiusFactor(renderer.film.passes().end - 1, settings.alpha);

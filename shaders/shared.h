@@ -38,6 +38,7 @@ const uint INTEGRATOR_PHOTON = 0u;
 const uint INTEGRATOR_PATH = 1u;
 const uint INTEGRATOR_DIRECT = 2u;
 const uint INTEGRATOR_PHOTON_MAP = 3u;
+const uint INTEGRATOR_LIGHT = 4u;
 
 const uint KERNEL_CONSTANT = 0u;
 const uint KERNEL_CONE = 1u;
@@ -590,6 +591,37 @@ struct JoinArgs {
     PTR(float) other; // [column][pixels]
     uint pixels;
     JoinWeights weights;
+};
+
+// ---- Light tracing ------------------------------------------------------------------------------
+
+/// What a photon adds to the mean radiance of the pixel that sees it.
+struct Splat {
+    vec3 radiance;
+};
+BUFFER(Splat)
+
+struct SplatArgs {
+    PTR(DeviceScene) scene;
+    PTR(Photon) photons;
+    PTR(Splat) splats; // by photon
+    PTR(uint) pixels;  // by photon; the number of pixels if none sees it
+    PTR(uint) order;   // becomes that of the photons
+    PTR(uint) rays;    // becomes the number of photons that are before the film, on top of what it was
+    uvec2 size;
+    uint count;
+    float photonFlux; // W per photon emitted
+};
+
+struct CollectArgs {
+    PTR(Splat) splats;
+    PTR(uint) pixels;   // sorted
+    PTR(uint) order;    // of splats, by pixel
+    PTR(float) samples; // [column][stride]
+    uint splatCount;
+    uint stride;
+    uint firstPixel;
+    uint count;
 };
 
 // ---- The driver audit ---------------------------------------------------------------------------

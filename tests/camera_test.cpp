@@ -1,6 +1,7 @@
 /// Camera directions, and the small functions that every kernel has.
 #include "judge.h"
 #include "map.h"
+#include "scene/scene.h"
 #include <gtest/gtest.h>
 
 namespace vkpm {
@@ -12,6 +13,25 @@ TEST(Camera, DirectionsThroughTheFilm) {
     const std::vector<vec3> expected{{0, 0, -1}, {0.5f, 0, -1}, {0, 0.25f, -1}, {-0.5f, -0.25f, -1}};
     const auto ys = map<vec3>("camera_direction", xs);
     for (std::size_t i = 0; i < xs.size(); i++) EXPECT_LT(glm::length(ys[i] - glm::normalize(expected[i])), 1e-6) << i;
+}
+
+TEST(Camera, FilmPositionsAreTheInverse) {
+    const Camera camera = pinholeCamera({.origin = {1, 2, 3}, .target = {2, 1, -1}, .up = {0.2f, 1, 0}, .fieldOfView = 2}, {30, 20});
+    std::vector<CameraCase> xs;
+    for (const vec2 film : unitSquare(10'000, 1)) xs.push_back({camera, film});
+    const auto ys = map<vec2>("film_position", xs);
+    for (std::size_t i = 0; i < xs.size(); i++) EXPECT_LT(glm::length(ys[i] - xs[i].film), 1e-6) << i;
+}
+
+// Together they are the solid angle of the whole film, a rectangle at distance 1 (Howell's catalogue has it as 4 asin).
+TEST(Camera, SolidAnglesOfPixelsAddUp) {
+    const double x = 2, y = 1;
+    const Camera camera{.forward = {0, 0, -1}, .right = {float(x), 0, 0}, .up = {0, float(y), 0}};
+    std::vector<CameraCase> xs;
+    for (int i = 0; i < 40 * 20; i++) xs.push_back({camera, {(float(i % 40) + 0.5f) / 40, (float(i / 40) + 0.5f) / 20}});
+    double sum = 0;
+    for (const float angle : map<float>("pixel_solid_angle", xs)) sum += double(angle);
+    EXPECT_NEAR(sum, 4 * std::asin(x * y / std::sqrt((1 + x * x) * (1 + y * y))), 2e-3);
 }
 
 TEST(Kernel, IsFinite) {

@@ -1,4 +1,4 @@
-/// How error falls with passes: as 1 / sqrt(n) where light is path traced, as the cube root where it is gathered in shrinking
+/// How error falls with passes: as 1 / sqrt(n) where light is path or light traced, as the cube root where it is gathered in shrinking
 /// discs (Knaus & Zwicker 2011), and not below the bias of discs that stay.
 #include "lamp_in_mirror.h"
 #include "output/exr.h"
@@ -88,6 +88,13 @@ TEST(Convergence, OfALampInAMirror) {
     settings.integrator = INTEGRATOR_PATH;
     const Curve path = converge("mirror, path traced", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
     expectPathTraced(path.slope(8));
+
+    settings.integrator = INTEGRATOR_LIGHT;
+    const Curve light = converge("mirror, light traced", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
+    EXPECT_NEAR(light.slope(8), -0.5, 0.05); // the points of passes are independent
+    EXPECT_LT(light.errors.back(), 0.03 * mean);
+    settings.causticPhotons = 100'000;
+    EXPECT_NEAR(layerMean(renderPasses(scene, settings, 64).pixels, LAYER_CAUSTIC), mean, 0.006 * mean);
 }
 
 // ---- The box, against a long render of it in tests/data ------------------------------------------

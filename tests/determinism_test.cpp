@@ -10,9 +10,9 @@ namespace {
 
 class Determinism : public Program {
 protected:
-    // All channels of the box under an environment, and the device that it says.
-    Image renderWith(const std::string& environment) const {
-        const Result result = run("--scene " + scene("box") + " --size 40x32 --passes 3 --photons 5000 --caustic-photons 5000 --quiet -o x.exr", environment);
+    // All channels of the box by an integrator under an environment, and the device that it says.
+    Image renderWith(const std::string& integrator, const std::string& environment) const {
+        const Result result = run("--integrator " + integrator + " --scene " + scene("box") + " --size 40x32 --passes 3 --photons 5000 --caustic-photons 5000 --quiet -o x.exr", environment);
         EXPECT_EQ(result.code, 0) << result.output;
         return readExr(folder / "x.exr");
     }
@@ -28,19 +28,23 @@ void expectSameBits(const Image& a, const Image& b, const std::string& what) {
 }
 
 TEST_F(Determinism, DriverThreadsAndLanesDoNotMatter) {
-    const Image plain = renderWith("");
-    expectSameBits(renderWith(""), plain, "another run");
-    for (const int threads : {1, 2, 3}) expectSameBits(renderWith(fmt::format("LP_NUM_THREADS={}", threads)), plain, fmt::format("{} threads", threads));
+    for (const std::string integrator : {"photon", "light"}) {
+        const Image plain = renderWith(integrator, "");
+        expectSameBits(renderWith(integrator, ""), plain, integrator + ", another run");
+        for (const int threads : {1, 2, 3})
+            expectSameBits(renderWith(integrator, fmt::format("LP_NUM_THREADS={}", threads)), plain, fmt::format("{}, {} threads", integrator, threads));
 
-    for (const int bits : {128, 256, 512}) {
-        const Image lanes = renderWith(fmt::format("LP_NATIVE_VECTOR_WIDTH={}", bits));
-        EXPECT_NE(lanes.attributes.at("device").find(fmt::format("{} bits", bits)), std::string::npos) << lanes.attributes.at("device");
-        expectSameBits(lanes, plain, fmt::format("{} lanes", bits / 32));
+        for (const int bits : {128, 256, 512}) {
+            const Image lanes = renderWith(integrator, fmt::format("LP_NATIVE_VECTOR_WIDTH={}", bits));
+            EXPECT_NE(lanes.attributes.at("device").find(fmt::format("{} bits", bits)), std::string::npos) << lanes.attributes.at("device");
+            expectSameBits(lanes, plain, fmt::format("{}, {} lanes", integrator, bits / 32));
+        }
     }
 }
 
-std::vector<Pixel> renderInWaves(const Scene& scene, WaveSizes waves) {
+std::vector<Pixel> renderInWaves(const Scene& scene, uint integrator, WaveSizes waves) {
     Settings settings = scene.settings;
+    settings.integrator = integrator;
     settings.size = {40, 32};
     settings.photons = settings.causticPhotons = 3000;
     Renderer renderer(testGpu(), scene, settings, waves);
@@ -49,15 +53,17 @@ std::vector<Pixel> renderInWaves(const Scene& scene, WaveSizes waves) {
 }
 
 TEST(Waves, SizesDoNotMatter) {
-    for (const char* name : {"box", "ring"}) {
-        const Scene scene = shippedScene(name);
-        const std::vector<Pixel> whole = renderInWaves(scene, {});
-        for (const WaveSizes waves : {WaveSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
-            const std::vector<Pixel> parts = renderInWaves(scene, waves);
-            EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
-                << name << ", waves of " << waves.photons << " photons and " << waves.camera << " paths";
+    for (const char* name : {"box", "ring"})
+        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_LIGHT}) {
+            const Scene scene = shippedScene(name);
+            const std::vector<Pixel> whole = renderInWaves(scene, integrator, {});
+            EXPECT_GT(layerMean(whole, LAYER_CAUSTIC), 0);
+            for (const WaveSizes waves : {WaveSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
+                const std::vector<Pixel> parts = renderInWaves(scene, integrator, waves);
+                EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
+                    << name << ", integrator " << integrator << ", waves of " << waves.photons << " photons and " << waves.camera << " paths";
+            }
         }
-    }
 }
 
 } // namespace

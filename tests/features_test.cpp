@@ -29,7 +29,7 @@ TEST(Features, ShippedScenesRenderTheSameBits) {
         Settings settings = scene.settings;
         settings.size = {24, 16};
         settings.photons = settings.causticPhotons = 1000;
-        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_DIRECT, INTEGRATOR_PHOTON_MAP}) {
+        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_DIRECT, INTEGRATOR_PHOTON_MAP, INTEGRATOR_LIGHT}) {
             settings.integrator = integrator;
             expectSameBits(scene, settings, name);
         }
@@ -39,7 +39,7 @@ TEST(Features, ShippedScenesRenderTheSameBits) {
 // Layers that somebody asked for are those of a render of all, and the others are black.
 TEST(Features, LayersAskedForAreThoseOfTheWhole) {
     for (const char* name : {"box", "ring", "pool"})
-        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_PHOTON_MAP}) {
+        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_PHOTON_MAP, INTEGRATOR_LIGHT}) {
             const Scene scene = shippedScene(name);
             Settings settings = scene.settings;
             settings.size = {24, 16};
@@ -140,7 +140,7 @@ public:
         s.size = {12, 8};
         s.photons = random.bits() % 8 ? 300 : 0;
         s.causticPhotons = random.bits() % 8 ? 300 : 0;
-        s.integrator = random.bits() % 2 ? INTEGRATOR_PHOTON : random.bits() % 4;
+        s.integrator = random.bits() % 2 ? INTEGRATOR_PHOTON : random.bits() % 5;
         s.kernel = random.bits() % 4;
         s.schlick = maybe();
         s.nearest = random.bits() % 4 ? 0 : 1 + random.bits() % 20;

@@ -197,7 +197,7 @@ TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
              {"--size", "65537x1", "65536"},          {"--size", "65536x65536", "268435456"},
              {"--size", "640x480x3", "WIDTHxHEIGHT"}, {"--size", "1.5x2", "WIDTHxHEIGHT"},
              {"--integrator", "pathh", "did you mean path?"},
-             {"--integrator", "vcm", "photon, path, direct, photon-map"},
+             {"--integrator", "vcm", "photon, path, direct, photon-map, light"},
              {"--kernel", "box", "constant, cone, gauss, epanechnikov"},
              {"--fresnel", "none", "exact, schlick"}, {"--map", "both", "global, caustic"},
              {"--show", "all", "estimate, points"},   {"--output", "a.png", ".exr"},

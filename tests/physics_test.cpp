@@ -199,13 +199,16 @@ Scene scaledBox(float factor) {
 
 TEST(Scale, APowerOfTwoChangesNoBitOfTheRadiance) {
     Settings settings{.size = {64, 64}, .photons = 20'000, .causticPhotons = 20'000};
-    const Rendered tame = renderPasses(scaledBox(1), settings, 1);
-    for (const float factor : {0x1p-10f, 0x1p12f}) {
-        const Rendered scaled = renderPasses(scaledBox(factor), settings, 1);
-        std::size_t differ = 0;
-        for (std::size_t i = 0; i < tame.pixels.size(); i++)
-            differ += std::memcmp(&tame.pixels[i].mean.layers, &scaled.pixels[i].mean.layers, sizeof(tame.pixels[i].mean.layers)) != 0;
-        EXPECT_EQ(differ, 0u) << factor;
+    for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_LIGHT}) {
+        settings.integrator = integrator;
+        const Rendered tame = renderPasses(scaledBox(1), settings, 1);
+        for (const float factor : {0x1p-10f, 0x1p12f}) {
+            const Rendered scaled = renderPasses(scaledBox(factor), settings, 1);
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < tame.pixels.size(); i++)
+                differ += std::memcmp(&tame.pixels[i].mean.layers, &scaled.pixels[i].mean.layers, sizeof(tame.pixels[i].mean.layers)) != 0;
+            EXPECT_EQ(differ, 0u) << integrator << ", " << factor;
+        }
     }
 }
 

@@ -29,7 +29,7 @@ TEST_F(Program, RendersEveryShippedSceneWithoutLossOrNonfinite) {
 }
 
 TEST_F(Program, EveryIntegratorKernelAndViewRenders) {
-    for (const char* options : {"--integrator path", "--integrator direct", "--integrator photon-map --show points",
+    for (const char* options : {"--integrator path", "--integrator direct", "--integrator light", "--integrator photon-map --show points",
                                 "--integrator photon-map --map caustic", "--integrator photon-map --map caustic --show points",
                                 "--kernel cone", "--kernel gauss", "--kernel epanechnikov", "--nearest 10", "--fresnel schlick", "--seed 7"}) {
         const Result result = run("--scene " + scene("box") + small + options + " --quiet -o x.exr");

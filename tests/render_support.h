@@ -25,8 +25,8 @@ inline Rendered renderPasses(const Scene& scene, Settings settings, uint passes)
     Renderer renderer(testGpu(), scene, settings);
     for (uint pass = 0; pass < passes; pass++) renderer.renderPass(pass);
     Rendered result{renderer.film.download()};
-    if (renderer.globalMap()) result.global = renderer.globalMap()->ledger;
-    if (renderer.causticMap()) result.caustic = renderer.causticMap()->ledger;
+    result.global = renderer.photons(MapKind::global);
+    result.caustic = renderer.photons(MapKind::caustic);
     for (const std::uint64_t count : renderer.film.nonfinite()) result.nonfinite += count;
     return result;
 }

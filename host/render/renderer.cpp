@@ -32,6 +32,13 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
     };
     if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
+    if (tracesLight(sceneHas, settings)) light.emplace(gpu, scene, sceneHas, settings, flux, waves.photons);
+}
+
+PhotonLedger Renderer::photons(MapKind kind) const {
+    if (kind == MapKind::caustic && light) return light->ledger;
+    const std::optional<MapStages>& stages = kind == MapKind::caustic ? caustic : global;
+    return stages ? stages->ledger : PhotonLedger{};
 }
 
 void Renderer::measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius) {
@@ -64,6 +71,7 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
 void Renderer::renderPass(uint pass) {
     buildMap(global, pass);
     buildMap(caustic, pass);
+    if (light) light->trace(pass);
     const float nearDistance = global ? nearRadii * global->typicalRadius() * radiusFactor(pass, settings.alpha) : 0;
     const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}, nearDistance};
 
@@ -72,6 +80,7 @@ void Renderer::renderPass(uint pass) {
     for (uint first = 0; first < pixels; first += camera.capacity()) {
         const uint count = std::min(camera.capacity(), pixels - first);
         const RayCounts rays = camera.trace(pass, first, count, maps);
+        if (light) light->collect(camera.samples, camera.capacity(), first, count);
         film.add(camera.samples, camera.capacity(), first, count);
         cameraRays.paths += rays.paths;
         cameraRays.shadow += rays.shadow;

@@ -2,6 +2,7 @@
 #pragma once
 #include "render/camera_paths.h"
 #include "render/film.h"
+#include "render/light_tracing.h"
 #include "render/photon_grid.h"
 #include "render/photon_tracing.h"
 #include "render/radius_field.h"
@@ -44,6 +45,8 @@ public:
     const Features& features() const { return sceneHas; }
     const std::optional<MapStages>& globalMap() const { return global; }
     const std::optional<MapStages>& causticMap() const { return caustic; }
+    /// What became of the photons of either kind in all passes; those of the caustic kind are for its map or for light tracing.
+    PhotonLedger photons(MapKind kind) const;
 
 private:
     void measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius);
@@ -56,6 +59,7 @@ private:
     float flux; // luminance of the lights' flux, W
     std::optional<MapStages> global;
     std::optional<MapStages> caustic;
+    std::optional<LightTracing> light;
     CameraPaths camera;
     RayCounts cameraRays;
 

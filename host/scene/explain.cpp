@@ -11,6 +11,7 @@ std::string mapAbsent(bool needed, bool caustic, const Features& features, const
     if (!features.hasDiffuse) return "the scene has no diffuse surface";
     if (caustic && !features.hasMirror && !features.hasGlass) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
+    if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
     const bool uses = settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic == caustic);
     return uses ? "nobody asked for a layer that needs it" : "the integrator does not use it";
 }
@@ -21,7 +22,8 @@ std::string layerAbsent(uint layer, const Features& features, const Settings& se
     if (layer >= LAYER_COUNT) return "nobody asked for it";
     if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR) return "the scene has no diffuse surface";
     if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
-    if ((layer == LAYER_CAUSTIC ? settings.causticPhotons : settings.photons) == 0 && settings.integrator != INTEGRATOR_DIRECT)
+    const bool finds = settings.integrator == INTEGRATOR_LIGHT ? layer == LAYER_CAUSTIC : settings.integrator != INTEGRATOR_DIRECT;
+    if (finds && (layer == LAYER_CAUSTIC ? settings.causticPhotons : settings.photons) == 0)
         return "no photons were asked for";
     return "the integrator does not find it";
 }

@@ -32,6 +32,8 @@ bool asksLights(const Features& f, const Settings& settings) {
     return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse && (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
 }
 
+bool tracesLight(const Features& f, const Settings& settings) { return settings.integrator == INTEGRATOR_LIGHT && f.hasCausticLayer; }
+
 bool asksMaps(const Features& f) { return f.hasGlobalMap || f.hasCausticMap; }
 
 /// Leaves out the layers that cannot have any light and the maps that no layer needs, by what the settings ask for and by
@@ -40,17 +42,18 @@ static void chooseLayers(Features& f, const Settings& settings) {
     const bool photon = settings.integrator == INTEGRATOR_PHOTON;
     const bool path = settings.integrator == INTEGRATOR_PATH;
     const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
+    const bool light = settings.integrator == INTEGRATOR_LIGHT;
     const bool specular = f.hasMirror || f.hasGlass;
     const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && f.hasDiffuse;
-    const bool caustic = (photon || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
+    const bool caustic = (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
     askFor(settings.layers, f);
-    f.hasEmissionLayer &= !map;
-    f.hasDirectLayer &= !map && f.hasDiffuse;
-    f.hasSpecularLayer &= specular;
+    f.hasEmissionLayer &= !map && !light;
+    f.hasDirectLayer &= !map && !light && f.hasDiffuse;
+    f.hasSpecularLayer &= !light && specular;
     f.hasCausticLayer &= caustic || (path && f.hasDiffuse && specular);
     f.hasIndirectLayer &= global || (path && f.hasDiffuse);
     f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
-    f.hasCausticMap = caustic && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+    f.hasCausticMap = caustic && !light && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
     f.hasBias &= asksMaps(f) && !settings.showPoints;
 }
 

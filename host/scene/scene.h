@@ -59,4 +59,7 @@ void askFor(uint layers, Features& features);
 bool asksLights(const Features& features, const Settings& settings);
 bool asksMaps(const Features& features);
 
+/// Whether photons are connected to the camera.
+bool tracesLight(const Features& features, const Settings& settings);
+
 } // namespace vkpm

@@ -7,7 +7,7 @@ namespace vkpm {
 
 std::string settingsJson(const Settings& s) {
     const char* const kernels[] = {"constant", "cone", "gauss", "epanechnikov"};
-    const char* const integrators[] = {"photon", "path", "direct", "photon-map"};
+    const char* const integrators[] = {"photon", "path", "direct", "photon-map", "light"};
     nlohmann::ordered_json json{{"size", {s.size.x, s.size.y}},
                                 {"integrator", integrators[s.integrator]},
                                 {"photons", s.photons},

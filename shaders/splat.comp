@@ -1,0 +1,76 @@
+// Connects photons to the camera: the pixel that sees each one, and what it adds to the mean radiance of that pixel (light
+// tracing, Arvo 1986; the camera's weight as in Dutré, Lafortune & Willems 1993).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "kernel.glsl"
+#include "frame.glsl"
+#include "camera.glsl"
+#include "intersect.glsl"
+#include "traverse.glsl"
+#include "offset.glsl"
+#include "surface.glsl"
+#include "material.glsl"
+#include "features.glsl"
+
+ARGS(SplatArgs)
+
+uint noPixel() {
+    return args.size.x * args.size.y;
+}
+
+// The pixel that a direction goes through, if it does.
+uint pixelOf(Camera camera, vec3 direction) {
+    if (!(dot(direction, camera.forward) > 0.0)) return noPixel();
+    vec2 film = filmPosition(camera, direction);
+    if (!(min(film.x, film.y) >= 0.0 && max(film.x, film.y) < 1.0)) return noPixel();
+    uvec2 pixel = min(uvec2(film * vec2(args.size)), args.size - 1u);
+    return pixel.y * args.size.x + pixel.x;
+}
+
+// Whether the photon is where a ray from the eye ends. The ray meets the surface's plane once, so a photon in this plane is
+// there; and it has to have arrived on the side that the ray comes from.
+bool isAt(Photon photon, Surface surface, vec3 direction) {
+    vec3 normal = dot(direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
+    float apart = abs(dot(surface.position - photon.position, normal));
+    return apart <= roundingAlong(surface.magnitude, normal) && dot(unpackUnit(photon.normal), normal) > 0.0;
+}
+
+// Whether the camera sees the photon; `radiance` is what the photon adds to its pixel's mean. Between film and surface go the
+// cosine of the geometric normal and the square of the distance; what shading normals change is in the photon's color (Veach
+// 1997, eq. 5.19).
+bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
+    radiance = vec3(0.0);
+    vec3 direction = normalize(toPhoton);
+    Hit hit = closest(scene, scene.camera.origin, direction, NONE);
+    if (hit.primitive == NONE) return false;
+    Surface surface = surfaceAt(scene, Path(scene.camera.origin, direction, vec3(1.0), 0.0, NONE, 0u), hit);
+    Material material = MaterialPtr(scene.materials).at[surface.material];
+    requireSurface(scene, hit.primitive, material);
+    if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
+
+    float cosine = abs(dot(direction, surface.normal));
+    float solidAngle = pixelSolidAngle(scene.camera, args.size, dot(direction, scene.camera.forward));
+    radiance = photon.color * material.color * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));
+    return true;
+}
+
+void main() {
+    uint i = threadIndex();
+    uint pixel = noPixel();
+    bool onFilm = false;
+    if (i < args.count) {
+        DeviceScene scene = args.scene.at[0];
+        Photon photon = args.photons.at[i];
+        vec3 toPhoton = photon.position - scene.camera.origin;
+        pixel = pixelOf(scene.camera, toPhoton);
+        onFilm = pixel != noPixel();
+        vec3 radiance = vec3(0.0);
+        if (onFilm && !sees(scene, photon, toPhoton, radiance)) pixel = noPixel();
+        args.splats.at[i].radiance = radiance;
+        args.pixels.at[i] = pixel;
+        args.order.at[i] = i;
+    }
+    uint rays = subgroupAdd(uint(onFilm));
+    if (subgroupElect() && rays > 0u) atomicAdd(args.rays.at[0], rays);
+}
