@@ -162,6 +162,12 @@ def test_reference(folder: Path) -> None:
     assert "the time is over" in study(*words, "--error", 1e-6, "--time", 0.2)
     assert part.stat().st_mtime_ns > written
 
+    # It says what it was made of, and is not gone on with otherwise.
+    assert [part["integrator"] for part in after["parts"]] == ["path", "light"]
+    facts_file.write_text(json.dumps(after | {"parts": after["parts"][:1]}))
+    assert "of other parts" in study(*words, "--error", stated, code=2)
+    facts_file.write_text(json.dumps(after))
+
     # A changed scene is not what the reference shows.
     changed = folder / "box.json"
     changed.write_text(SCENE.read_text().replace("0.725", "0.5"))

@@ -93,7 +93,7 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
 
     reference = commands.add_parser(
         "reference", allow_abbrev=False, epilog=epilog, help="make references of scenes to a stated error",
-        description="Render scenes by an unbiased integrator until their error is small enough. Ctrl-C ends it, and "
+        description="Render scenes by unbiased integrators until their error is small enough. Ctrl-C ends it, and "
                     "the same command goes on.")
     add = reference.add_argument
     add("--scene", type=scene, nargs="+", required=True, action="extend", metavar="FILE", help="scenes to render")

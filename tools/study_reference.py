@@ -1,4 +1,9 @@
-"""References: long renders by unbiased integrators, in growing steps until their error is small enough."""
+"""References: long renders by unbiased integrators, in growing steps until their error is small enough.
+
+Caustics come from light tracing, which finds those of small lights as well; everything else comes from the path tracer.
+What neither reaches are caustics of small lights that are seen through mirrors and glass, or by way of another diffuse
+surface: these stay with the path tracer, in the layers specular and indirect.
+"""
 
 import argparse
 import json
@@ -25,7 +30,7 @@ class Part:
     integrator: str
 
 
-PARTS = (Part(LIGHT, "path"),)
+PARTS = (Part(tuple(layer for layer in LIGHT if layer != "caustic"), "path"), Part(("caustic",), "light"))
 
 
 def scene_digest(path: Path) -> str:
@@ -90,14 +95,16 @@ class Reference:
         self.parts = [PartRender(part, index, folder) for index, part in enumerate(PARTS)]
 
     def require_same(self) -> None:
-        """Refuses to go on with a reference of another scene or other options."""
+        """Refuses to go on with a reference of another scene, other options or other parts."""
         facts_file = self.file.with_suffix(".json")
         if not facts_file.exists():
             return
         facts = json.loads(facts_file.read_text())
-        for key, now in (("scene_digest", scene_digest(self.scene)), ("options", self.extra)):
-            if facts[key] != now:
-                what = "of another state of the scene" if key == "scene_digest" else f"with options {facts[key]}"
+        parts = [(tuple(part["layers"]), part["integrator"]) for part in facts["parts"]]
+        for same, what in ((facts["scene_digest"] == scene_digest(self.scene), "of another state of the scene"),
+                           (facts["options"] == self.extra, f"with options {facts['options']}"),
+                           (parts == [(part.layers, part.integrator) for part in PARTS], f"of other parts, {parts},")):
+            if not same:
                 raise Failure(f"tools/study: {self.file} was made {what}; remove it and what lies beside it, or choose "
                               "another folder by -o", 2)
 
