@@ -187,22 +187,26 @@ TEST(Film, MeansAreThoseOfDoublePrecision) {
 
 // Intervals of independent samples have the truth in them as often as they say, and those of samples that complement each other, too.
 TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
-    const uvec2 area{200, 200};
+    const uvec2 area{64, 64};
+    Features few;
+    askFor(1u << LAYER_DIRECT | 1u << ASK_NOISE, few);
+    const Columns own(few);
+    const Film first(testGpu(), area, few); // its kernels are compiled once
     for (const bool stratified : {false, true})
         for (const uint passes : {16u, 32u, 64u}) {
             Random random(passes + stratified);
             std::vector<float> offset(area.x * area.y);
             for (float& x : offset) x = random.unit();
-            Film film(testGpu(), area);
+            Film film(testGpu(), area, few);
             for (uint pass = 0; pass < passes; pass++) {
-                std::vector<float> samples(std::size_t(columns.SAMPLE_COLUMNS) * area.x * area.y);
+                std::vector<float> samples(std::size_t(own.SAMPLE_COLUMNS) * area.x * area.y);
                 // Van der Corput's sequence, shifted in each pixel: the mean over passes of a smooth function falls faster than its root.
                 float radical = 0;
                 for (uint bit = 0; bit < 16; bit++) radical += float(pass >> bit & 1) * std::exp2(-float(bit) - 1);
                 for (std::size_t i = 0; i < offset.size(); i++) {
                     const float u = stratified ? std::fmod(radical + offset[i], 1.0f) : random.unit();
                     const float rough = random.unit(); // and one that does not
-                    samples[(columns.COLUMN_DIRECT) * offset.size() + i] = u + 0.3f * rough;
+                    samples[own.COLUMN_DIRECT * offset.size() + i] = u + 0.3f * rough;
                 }
                 film.begin(pass);
                 film.add(Buffer<float>(testGpu(), "samples", samples), area.x * area.y, 0, area.x * area.y);
