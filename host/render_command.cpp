@@ -72,9 +72,9 @@ private:
     std::optional<ErrorEstimate> estimateOf(std::span<const Pixel> pixels) const;
     double elapsed() const { return secondsSince(begin) - reporting; }
     void addToReport();
-    void finishReport() const;
+    void finishReport(std::span<const Pixel> pixels) const;
     void checkpoint();
-    void save();
+    void save(std::span<const Pixel> pixels);
     Statistics statistics() const;
     std::uint64_t rays() const;
     std::uint64_t nonfinite() const;
@@ -177,8 +177,7 @@ void Job::addToReport() {
     reporting += secondsSince(before);
 }
 
-void Job::finishReport() const {
-    const std::vector<Pixel> pixels = renderer.film.download();
+void Job::finishReport(std::span<const Pixel> pixels) const {
     report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, settings.exposure),
                    {{"scene", options.scene.string()}, {"settings", identity.at("settings")}, {"version", identity.at("version")}, {"device", device},
                     {"reference", options.reference ? options.reference->string() : "none"}});
@@ -207,7 +206,7 @@ void Job::renderPasses() {
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
 void Job::checkpoint() {
     try {
-        save();
+        save(renderer.film.download());
         log.write("checkpoint", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}});
     } catch (const std::runtime_error& failure) {
         fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", failure.what());
@@ -216,7 +215,7 @@ void Job::checkpoint() {
     saved = Clock::now();
 }
 
-void Job::save() {
+void Job::save(std::span<const Pixel> pixels) {
     std::map<std::string, std::string> attributes = identity;
     attributes["device"] = device;
     attributes["needed"] = fmt::format("{}", fmt::join(manifest(renderer.features(), settings, true), "; "));
@@ -224,7 +223,7 @@ void Job::save() {
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(begin));
-    saveRender(options.output, renderer.film, settings, std::move(attributes));
+    saveRender(options.output, renderer.film, pixels, settings, std::move(attributes));
 }
 
 Statistics Job::statistics() const {
@@ -254,9 +253,10 @@ int Job::finish() {
     if (renderer.film.passCount() == 0) return 130; // nothing to save: an older picture stays
     if (nonfinite())
         fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
-    save();
-    error = estimateOf(renderer.film.download());
-    if (report) finishReport();
+    const std::vector<Pixel> pixels = renderer.film.download();
+    save(pixels);
+    error = estimateOf(pixels);
+    if (report) finishReport(pixels);
     if (error && !options.quiet) fmt::print(stderr, "{}\n", describe(*error));
     log.write("end", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}, {"interrupted", interrupted()}});
     if (options.stats) writeStatistics(*options.stats, statistics());

@@ -45,9 +45,8 @@ void restore(Film& film, const RenderFile& file) {
 
 std::filesystem::path pngBeside(std::filesystem::path exr) { return exr.replace_extension(".png"); }
 
-void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes) {
+void saveRender(const std::filesystem::path& output, const Film& film, std::span<const Pixel> pixels, const Settings& settings, std::map<std::string, std::string> attributes) {
     const PassRange passes = film.passes();
-    const std::vector<Pixel> pixels = film.download();
     Image image = filmImage(pixels, settings.size, settings.layers);
     image.attributes = std::move(attributes);
     image.attributes["passes"] = std::to_string(film.passCount());

@@ -27,7 +27,8 @@ void restore(Film& film, const RenderFile& file);
 /// The PNG that is written beside an EXR file.
 std::filesystem::path pngBeside(std::filesystem::path exr);
 
-/// Writes the picture of a film with its sums and further attributes, and a PNG beside it; size, layers and exposure are the settings'.
-void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes);
+/// Writes the picture of a film (its pixels as downloaded) with its sums and further attributes, and a PNG beside it; size, layers
+/// and exposure are the settings'.
+void saveRender(const std::filesystem::path& output, const Film& film, std::span<const Pixel> pixels, const Settings& settings, std::map<std::string, std::string> attributes);
 
 } // namespace vkpm
