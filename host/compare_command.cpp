@@ -27,16 +27,11 @@ constexpr Column COLUMNS[] = {{"rmse", "rmse", &LayerError::rmse},
                               {"max error", "max_error", &LayerError::maxError},
                               {"flip", "flip", &LayerError::flip}};
 
-static const Layer* findIn(const Layers& layers, const Layer& wanted) {
-    const auto found = std::ranges::find_if(layers, [&](const Layer& layer) { return areComparable(layer, wanted); });
-    return found == layers.end() ? nullptr : &*found;
-}
-
 /// The names of layers that others lack.
 static std::vector<std::string> onlyIn(const Layers& layers, const Layers& others) {
     std::vector<std::string> names;
     for (const Layer& layer : layers)
-        if (!findIn(others, layer)) names.push_back(layer.name);
+        if (!comparableIn(others, layer)) names.push_back(layer.name);
     return names;
 }
 
@@ -62,7 +57,7 @@ static Json measure(const Options& options, const Image& image, const Image& ref
     const Layers references = imageLayers(reference);
     Json errors = Json::object();
     for (const Layer& layer : layers)
-        if (const Layer* other = findIn(references, layer)) errors[layer.name] = json(measureLayer(layer, *other));
+        if (const Layer* other = comparableIn(references, layer)) errors[layer.name] = json(measureLayer(layer, *other));
     const auto onlyInImage = onlyIn(layers, references);
     const auto onlyInReference = onlyIn(references, layers);
     if (errors.empty())

@@ -58,4 +58,9 @@ bool areComparable(const Layer& a, const Layer& b) {
     return a.name == b.name && a.isColour == b.isColour && a.channels.size() == b.channels.size();
 }
 
+const Layer* comparableIn(const std::vector<Layer>& layers, const Layer& wanted) {
+    const auto found = std::ranges::find_if(layers, [&](const Layer& layer) { return areComparable(layer, wanted); });
+    return found == layers.end() ? nullptr : &*found;
+}
+
 } // namespace vkpm

@@ -20,4 +20,7 @@ std::vector<Layer> imageLayers(const Image& image);
 /// Whether two layers hold the same thing: alike in name and channels.
 bool areComparable(const Layer& a, const Layer& b);
 
+/// The layer among others that is comparable to one; null if there is none.
+const Layer* comparableIn(const std::vector<Layer>& layers, const Layer& wanted);
+
 } // namespace vkpm

@@ -18,11 +18,6 @@ bool isLight(const Layer& layer) {
     return layer.isColour && (layer.name == "beauty" || std::find(layerNames.begin(), end, layer.name) != end);
 }
 
-const Layer* findIn(const std::vector<Layer>& layers, const Layer& wanted) {
-    const auto found = std::ranges::find_if(layers, [&](const Layer& layer) { return areComparable(layer, wanted); });
-    return found == layers.end() ? nullptr : &*found;
-}
-
 /// A number of the table; nothing where there is none.
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
@@ -70,7 +65,7 @@ void Report::add(ReportRow row, const Image& image) {
     if (reference) {
         const std::vector<Layer> references = imageLayers(*reference);
         for (const Layer& layer : imageLayers(image))
-            if (const Layer* other = isLight(layer) ? findIn(references, layer) : nullptr) row.layers[layer.name] = measureLayer(layer, *other);
+            if (const Layer* other = isLight(layer) ? comparableIn(references, layer) : nullptr) row.layers[layer.name] = measureLayer(layer, *other);
     }
     all.push_back(std::move(row));
     replaceFile(folder / "error.csv", tableOf(all));
