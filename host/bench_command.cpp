@@ -80,6 +80,7 @@ int bench(const Options& options) {
     if (options.benchFeatures) return benchFeatures(options);
     const Scene scene = options.scene.empty() ? benchScene() : loadScene(options.scene);
     Gpu gpu(options.device);
+    gpu.timesKernels = true;
     const nlohmann::ordered_json about{{"device", gpu.info().name},
                                        {"driver", gpu.info().driver},
                                        {"threads", std::thread::hardware_concurrency()},

@@ -92,6 +92,8 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
     count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
     count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
           options.causticPhotons);
+    parser.add("--gather-rays", "N", fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", mostGatherRays, defaults.gatherRays),
+               [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, mostGatherRays); });
     radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
     radius("--caustic-radius", "the same for caustics", options.causticRadius);
     count("--nearest", fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
@@ -254,6 +256,7 @@ Settings Options::override(Settings settings) const {
     set(settings.passes, passes);
     set(settings.photons, photons);
     set(settings.causticPhotons, causticPhotons);
+    set(settings.gatherRays, gatherRays);
     set(settings.radius, radius);
     set(settings.causticRadius, causticRadius);
     set(settings.nearest, nearest);

@@ -38,6 +38,7 @@ struct Options {
     std::optional<bool> showPoints;
     std::optional<uint> passes;
     std::optional<uint> photons;
+    std::optional<uint> gatherRays;
     std::optional<uint> causticPhotons;
     std::optional<float> radius;
     std::optional<float> causticRadius;

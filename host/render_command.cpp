@@ -276,6 +276,7 @@ int render(const Options& options) {
     if (options.stats) requireWritable(*options.stats);
 
     Gpu gpu(options.device);
+    gpu.timesKernels = options.stats.has_value();
     requireSoundDriver(gpu);
     Job job(options, scene, settings, gpu);
     job.start = start;

@@ -30,13 +30,14 @@ void main() {
     if (block < args.kinds) writeQueue(block, blocks);
     if (block >= blocks) return;
 
+    // All kinds there may be, so that the loops are unrolled; one that there is not has no flags.
     uint next[EYE_QUEUES];
-    for (uint kind = 0u; kind < args.kinds; kind++) next[kind] = args.sums.at[kind * blocks + block];
+    for (uint kind = 0u; kind < EYE_QUEUES; kind++) next[kind] = args.sums.at[min(kind, args.kinds - 1u) * blocks + block];
     uint last = min((block + 1u) * COMPACTION_BLOCK, count);
     for (uint place = block * COMPACTION_BLOCK; place < last; place++) {
         uint flags = args.flags.at[place];
         uint slot = args.list.at[first + place];
-        for (uint kind = 0u; kind < args.kinds; kind++)
+        for (uint kind = 0u; kind < EYE_QUEUES; kind++)
             if ((flags >> kind & 1u) != 0u) args.nextList.at[next[kind]++] = slot;
     }
 }

@@ -16,30 +16,47 @@ float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
     vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
     float distance2 = dot(d, d);
     if (distance2 >= radius * radius) return INFINITY;
-    bool near = abs(dot(d, query.normal)) <= 0.1 * radius;
-    return near && dot(unpackUnit(PhotonPtr(map.photons).at[i].normal), query.normal) > 0.5 ? distance2 : INFINITY;
+    if (abs(dot(d, query.normal)) > 0.1 * radius) return INFINITY;
+    vec3 side = unpackDirection(PhotonPtr(map.photons).at[i].normal);
+    float cosine = dot(side, query.normal);
+    return cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side) ? distance2 : INFINITY;
+}
+
+// Sum of the photons' colours under the kernel, and within the disc of half the area under the kernel of that one.
+struct Sums {
+    vec3 outer;
+    vec3 inner; // zero if no bias is estimated
+};
+
+// A photon at squared distance `distance2`.
+void addPhoton(PhotonMap map, uint i, float distance2, float radius, inout Sums sums) {
+    uint kernel = densityKernel == ANY ? map.kernel : densityKernel;
+    vec3 color = PhotonPtr(map.photons).at[i].color;
+    float x2 = distance2 / (radius * radius);
+    sums.outer += color * densityWeight(kernel, x2);
+    if (hasBias != 0u) sums.inner += x2 < 0.5 ? color * densityWeight(kernel, 2.0 * x2) : vec3(0.0);
 }
 
 // Sum of the photons' colours under the kernel, per area of the disc. If bias is estimated, `inner` is the same of the disc of
 // half the area in the same photons, else zero.
 vec3 estimateWithin(PhotonMap map, Query query, float radius, out vec3 inner) {
-    uint kernel = densityKernel == ANY ? map.kernel : densityKernel;
-    vec3 sum = vec3(0.0);
-    inner = vec3(0.0);
-    Cells cells = cellsAround(map, query.position, radius);
+    Cells cells = cellsAround(map, query.position, query.normal, radius);
+    Sums sums = Sums(vec3(0.0), vec3(0.0));
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            float distance2 = photonDistance2(map, i, query, radius);
-            if (distance2 == INFINITY) continue;
-            vec3 color = PhotonPtr(map.photons).at[i].color;
-            float x2 = distance2 / (radius * radius);
-            sum += color * densityWeight(kernel, x2);
-            if (hasBias != 0u && x2 < 0.5) inner += color * densityWeight(kernel, 2.0 * x2);
+            vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
+            float distance2 = dot(d, d);
+            if (distance2 < radius * radius && abs(dot(d, query.normal)) <= 0.1 * radius) {
+                vec3 side = unpackDirection(PhotonPtr(map.photons).at[i].normal);
+                float cosine = dot(side, query.normal);
+                if (cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side)) addPhoton(map, i, distance2, radius, sums);
+            }
         }
     }
-    inner *= 2.0 / (PI * radius * radius);
-    return sum / (PI * radius * radius);
+    float perArea = 1.0 / (PI * radius * radius);
+    inner = 2.0 * perArea * sums.inner;
+    return perArea * sums.outer;
 }
 
 vec3 estimateWithin(PhotonMap map, Query query, float radius) {
@@ -52,7 +69,7 @@ const uint BINS = 16u;
 uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[BINS]) {
     uint below = 0u;
     for (uint b = 0u; b < BINS; b++) bins[b] = 0u;
-    Cells cells = cellsAround(map, query.position, map.radius);
+    Cells cells = cellsAround(map, query.position, query.normal, map.radius);
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
@@ -67,7 +84,7 @@ uint countBins(PhotonMap map, Query query, float low, float high, out uint bins[
 // The greatest squared distance below `high` of a photon that counts, or 0.
 float farthestBelow(PhotonMap map, Query query, float high) {
     float farthest = 0.0;
-    Cells cells = cellsAround(map, query.position, map.radius);
+    Cells cells = cellsAround(map, query.position, query.normal, map.radius);
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {

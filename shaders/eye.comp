@@ -11,11 +11,12 @@ void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
     uint pixel = args.firstPixel + slot;
-    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.pass, args.seed), 0u);
+    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.pass, args.seed, SAMPLES_EYE), 0u);
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
     args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u);
     args.list.at[slot] = slot;
+    if (hasGlobalMap != 0u) args.gatherPoints.at[slot].flags = NONE;
 
     for (uint column = 0u; column < SAMPLE_COLUMNS; column++) args.samples.at[column * args.stride + slot] = 0.0;
 }

@@ -18,9 +18,14 @@ uint packUnit(vec3 v) {
     return q.x | q.y << 16;
 }
 
+// The direction of the unit vector, of any length.
+vec3 unpackDirection(uint code) {
+    vec2 p = vec2(ivec2(code & 0xffffu, code >> 16) - 32767);
+    vec3 v = vec3(p, 32767.0 - abs(p.x) - abs(p.y));
+    if (v.z < 0.0) v.xy = (32767.0 - abs(v.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(v.xy, vec2(0.0)));
+    return v;
+}
+
 vec3 unpackUnit(uint code) {
-    vec2 p = vec2(ivec2(code & 0xffffu, code >> 16) - 32767) / 32767.0;
-    vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (v.z < 0.0) v.xy = (1.0 - abs(v.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(v.xy, vec2(0.0)));
-    return normalize(v);
+    return normalize(unpackDirection(code));
 }

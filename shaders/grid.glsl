@@ -31,24 +31,42 @@ struct Cells {
     uint level;
     vec3 offset;  // of the disc's centre from the corner where the eight meet, in cells
     float reach2; // square of the radius in cells, with room for rounding
+    ivec3 low;    // the disc's bounding box, in cells of half the width
+    ivec3 high;
 };
 
-Cells cellsAround(PhotonMap map, vec3 position, float radius) {
+// Those of a disc about the normal, a tenth of its radius thick on either side; all those of a ball if the normal is zero.
+Cells cellsAround(PhotonMap map, vec3 position, vec3 normal, float radius) {
     uint level = 0u;
     for (float wide = 0.5 * map.radius; level < map.levels && radius <= wide; wide *= 0.5) level++;
-    vec3 place = clamp(position * map.cellsPerUnit, -FARTHEST_CELL, FARTHEST_CELL) * float(1u << level);
+    float scale = float(1u << level);
+    vec3 place = clamp(position * map.cellsPerUnit, -FARTHEST_CELL, FARTHEST_CELL) * scale;
     vec3 first = floor(place - 0.5);
-    float reach = radius * map.cellsPerUnit * float(1u << level) + 0.02;
-    return Cells(ivec3(first), level, place - first - 1.0, reach * reach);
+    const float rounding = 0.02;
+    vec3 boxRounding = rounding + 2.4e-7 * abs(place); // of the photon's place and of the query's
+    float reach = radius * map.cellsPerUnit * scale;
+    vec3 extent = reach * (sqrt(max(1.0 - normal * normal, 0.0)) + 0.1 * abs(normal)) + boxRounding;
+    return Cells(ivec3(first), level, place - first - 1.0, (reach + rounding) * (reach + rounding), ivec3(floor(2.0 * (place - extent))),
+        ivec3(floor(2.0 * (place + extent))));
 }
 
-// The photons of one of the eight cells, as places in the map; none if the disc does not reach it.
+// The photons of one of the eight cells, as places in the map; none if the disc does not reach it, and not those of the first
+// and last eighths that its bounding box leaves out, if the map's cells are split that far.
 uvec2 cellRange(PhotonMap map, Cells cells, uint corner) {
     ivec3 side = ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u);
     vec3 away = max(cells.offset * vec3(1 - 2 * side), 0.0);
-    if (dot(away, away) > cells.reach2) return uvec2(0u);
-    uint below = 3u * (map.levels - cells.level);
-    uint key = cellKey(cells.first + side, cells.level);
-    uint first = key << below & map.cellMask;
-    return uvec2(uintPtr(map.cells).at[first], uintPtr(map.cells).at[first + (1u << below)]);
+    ivec3 cell = cells.first + side;
+    ivec3 low = max(cells.low - 2 * cell, 0);
+    ivec3 high = min(cells.high - 2 * cell, 1);
+    if (dot(away, away) > cells.reach2 || any(greaterThan(low, high))) return uvec2(0u);
+
+    uint key = cellKey(cell, cells.level);
+    if (cells.level == map.levels) {
+        uint only = key & map.cellMask;
+        return uvec2(uintPtr(map.cells).at[only], uintPtr(map.cells).at[only + 1u]);
+    }
+    uint below = 3u * (map.levels - cells.level - 1u);
+    uint least = (key << 3 | octant(low)) << below & map.cellMask;
+    uint last = (key << 3 | octant(high)) << below & map.cellMask;
+    return uvec2(uintPtr(map.cells).at[least], uintPtr(map.cells).at[last + (1u << below)]);
 }

@@ -12,8 +12,10 @@ ARGS(PilotArgs)
 // Photons expected in a disc of the radius that the cells of a level are made for, from those in the eight cells that cover
 // it; on a flat surface these have an area of 4 x 2.1^2 radii squared.
 float photonsInDisc(vec3 position, uint level) {
-    Cells cells = cellsAround(args.map, position, ldexp(args.map.radius, -int(level)));
-    cells.reach2 = INFINITY; // all eight count
+    Cells cells = cellsAround(args.map, position, vec3(0.0), ldexp(args.map.radius, -int(level)));
+    cells.reach2 = INFINITY; // all eight count, whole
+    cells.low = 2 * cells.first;
+    cells.high = cells.low + 3;
     uint photons = 0u;
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(args.map, cells, corner);

@@ -17,7 +17,7 @@ void main() {
     Query query = args.queries.at[slot];
     float radius = min(1.5 * query.footprint, args.map.radius);
     vec3 sum = vec3(0.0);
-    Cells cells = cellsAround(args.map, query.position, radius);
+    Cells cells = cellsAround(args.map, query.position, query.normal, radius);
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(args.map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {

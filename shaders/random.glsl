@@ -60,9 +60,9 @@ vec2 sample2(Sampler s, uint dimension) {
     return vec2(unitFloat(bitfieldReverse(x)), unitFloat(y));
 }
 
-// The sequence of a pixel; its points are the passes.
-Sampler pixelSampler(uint pixel, uint pass, uint seed) {
-    return Sampler(pass, hash(hash(seed, 0x70697865u), pixel));
+// A point of one of the sequences (SAMPLES_...) of a pixel.
+Sampler pixelSampler(uint pixel, uint index, uint seed, uint sequence) {
+    return Sampler(index, hash(hash(seed, 0x70697865u + sequence), pixel));
 }
 
 // The sequence of a pass of photons; its points are the photons.

@@ -1,7 +1,7 @@
 // Eye paths at the surfaces they hit: light that is seen, and what to ask of shadow rays and photon maps.
 //
-// The photon integrator asks at the first diffuse vertex for direct light and the caustic map, sends one gather ray on,
-// and asks at its end for the global map. The path integrator goes on and on, and counts the same paths in the same layers.
+// The photon integrator asks at the first diffuse vertex for direct light and the caustic map, lets gather rays start there,
+// and asks at their ends for the global map. The path integrator goes on and on, and counts the same paths in the same layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -75,6 +75,14 @@ uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3
     return 1u << queue;
 }
 
+// Lets gather rays start here.
+void askGatherRays(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight) {
+    if (hasGlobalMap == 0u || !hasLayer(layerOf(path, LAYER_INDIRECT)) || maxComponent(weight) <= 0.0) return;
+    vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
+    uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
+    args.gatherPoints.at[slot] = GatherPoint(origin, normal, shading, weight, surface.primitive, flags);
+}
+
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
 bool goesOn(Path path) {
     if (chosen() == INTEGRATOR_DIRECT) return false;
@@ -118,14 +126,15 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
         bool caustics = showsCaustics();
         return askMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal, path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
     }
-    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance) 
+    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance)
         return askMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
 
     uint queues = 0u;
     if (askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
     if (chosen() == INTEGRATOR_PHOTON && showsCaustics())
         queues |= askMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    if (chosen() == INTEGRATOR_PHOTON && first) askGatherRays(slot, path, surface, normal, shading, weight);
+    else if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }
 
@@ -155,7 +164,7 @@ uint shade(uint slot) {
     if (surface.light != NONE && chosen() != INTEGRATOR_PHOTON_MAP)
         seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
 
-    Sampler s = pixelSampler(args.firstPixel + slot, args.pass, args.seed);
+    Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence);
     path.travelled = travelled;
     uint queues;
     if (isDiffuse(material)) queues = shadeDiffuse(scene, slot, path, surface, material.color, s);

@@ -271,6 +271,10 @@ struct PassRange {
 
 // ---- Paths: photons from the lights, rays from the eye ------------------------------------------
 
+// Sequences of sample points of a pixel.
+const uint SAMPLES_EYE = 0u;    // a point for each pass: the place in the pixel and all that follows
+const uint SAMPLES_GATHER = 1u; // one for each gather ray of each pass
+
 const uint GROUP = 64u;            // invocations of a work group, of every kernel
 const uint COMPACTION_BLOCK = 64u; // places of a list that an invocation compacts
 
@@ -513,11 +517,23 @@ struct Query {
 };
 BUFFER(Query)
 
+/// A diffuse point that the eye sees, directly or by way of specular surfaces, where gather rays start.
+struct GatherPoint {
+    vec3 origin;
+    vec3 normal; // geometric, on the side of the viewer
+    vec3 shading;
+    vec3 throughput; // of all gather rays together
+    uint from;       // primitive that the rays leave
+    uint flags;      // as in Path; NONE: there is no such point
+};
+BUFFER(GatherPoint)
+
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(float) samples; // [column][stride]
     PTR(uint) list;
+    PTR(GatherPoint) gatherPoints; // become none
     uint stride;
     uvec2 size;
     uint firstPixel;
@@ -534,18 +550,32 @@ struct ShadeArgs {
     PTR(float) samples; // [column][stride]
     PTR(ShadowRay) shadowRays;
     PTR(Query) queries;
+    PTR(GatherPoint) gatherPoints;
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
     uint stride;
     uint firstPixel;
-    uint pass;
+    uint sequence; // SAMPLES_...
+    uint index;    // of the sample in its sequence
     uint seed;
     uint bounce;
     uint caustics; // ask the caustic map; photon-map integrator: it, and not the global one
     float nearDistance; // a gather ray shorter than this goes on
     float pixelAngle;   // width of a pixel over its distance
     uint integrator;    // INTEGRATOR_...
+};
+
+struct SplitArgs {
+    PTR(GatherPoint) gatherPoints;
+    PTR(Path) paths;
+    PTR(uint) list;
+    PTR(uint) flags;
+    uint firstPixel;
+    uint count;
+    uint index; // of the sample in its sequence
+    uint seed;
+    float share; // of a gather ray
 };
 
 struct ShadowArgs {

@@ -68,11 +68,16 @@ double checkCloud(uint count, vec3 center, vec3 half, float radius, uint seed) {
     std::vector<vec3> positions(count);
     for (vec3& position : positions) position = place();
     std::vector<Query> queries;
-    for (int i = 0; i < 400; i++) queries.push_back(queryAt(place()));
+    for (int i = 0; i < 400; i++) // half of the discs lean
+        queries.push_back(queryAt(place(), 0, glm::normalize(vec3{0, 0, 1} + (i % 2 ? random.cube(1) * 0.9f : vec3{0}))));
     const auto photons = photonsAt(positions);
-    const TestMap onDevice(photons, radius);
-    expectEveryPhotonInItsCell(photons, onDevice);
-    return expectNeighbours(photons, queries, onDevice);
+    double neighbours = 0;
+    for (const uint levels : {0u, 1u, 3u}) {
+        const TestMap onDevice(photons, radius, levels);
+        expectEveryPhotonInItsCell(photons, onDevice);
+        neighbours = expectNeighbours(photons, queries, onDevice);
+    }
+    return neighbours;
 }
 
 TEST(Grid, FindsAllNeighbours) {
@@ -124,9 +129,9 @@ TEST(Grid, PhotonsAtTheBordersOfCells) {
 // Photons whose cells are far apart but share one key, sought among the positions of a wide plane.
 TEST(Grid, PhotonsOfOneKey) {
     Random random(11);
-    std::vector<vec3> candidates(400'000);
+    std::vector<vec3> candidates(1'600'000);
     for (vec3& candidate : candidates) candidate = vec3{random.between(-2000, 2000), random.between(-2000, 2000), 0};
-    const uint wanted = 1000, mask = 1023; // as the grid chooses for up to 1023 photons
+    const uint wanted = 1000, mask = 4095; // as the grid chooses for up to 1023 photons
     const PhotonMap shape{.cellsPerUnit = 1 / 2.1f, .cellMask = mask};
     const auto keys = map<uint>("cell_key", candidates, {}, {.photons = shape});
     std::vector<vec3> positions;
@@ -137,7 +142,7 @@ TEST(Grid, PhotonsOfOneKey) {
     while (positions.size() < wanted) positions.push_back(positions[random.bits() % 300] + random.cube(0.01f));
     for (std::size_t i = 0; i < 300; i++) queries.push_back(queryAt(positions[i] + vec3{random.between(-1, 1), random.between(-1, 1), 0}));
     const auto photons = photonsAt(positions);
-    const TestMap onDevice(photons, 1);
+    const TestMap onDevice(photons, 1, 0);
     ASSERT_EQ(onDevice.map.cellMask, mask);
     expectEveryPhotonInItsCell(photons, onDevice);
     EXPECT_GT(expectNeighbours(photons, queries, onDevice), 200);

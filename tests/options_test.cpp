@@ -93,7 +93,7 @@ TEST_F(OptionsTest, OverridesTheScene) {
                                     "--show",       "points",  "--passes",     "4",          "--photons", "1e6",
                                     "--nearest",    "50",      "--caustic-photons", "0",     "--radius",  "0.25",
                                     "--caustic-radius=.125",   "--kernel",     "cone",       "--fresnel", "schlick",
-                                    "--seed",       "4294967295", "--device",  "llvmpipe",   "--quiet",   "--stats",
+                                    "--gather-rays", "7",      "--seed",       "4294967295", "--device",  "llvmpipe",   "--quiet",   "--stats",
                                     "s.json",       "-o",      "a.exr"});
     const Settings settings = options.override(Settings{});
     EXPECT_EQ(settings.size, uvec2(640, 480));
@@ -104,6 +104,7 @@ TEST_F(OptionsTest, OverridesTheScene) {
     EXPECT_EQ(settings.photons, 1'000'000u);
     EXPECT_EQ(settings.causticPhotons, 0u);
     EXPECT_EQ(settings.nearest, 50u);
+    EXPECT_EQ(settings.gatherRays, 7u);
     EXPECT_EQ(settings.radius, 0.25f);
     EXPECT_EQ(settings.causticRadius, 0.125f);
     EXPECT_EQ(settings.kernel, KERNEL_CONE);
@@ -190,6 +191,7 @@ TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
              {"--photons", "nan", "whole number"},    {"--photons", "0x10", "whole number"},
              {"--photons", " 3", "whole number"},     {"--caustic-photons", "inf", "whole number"},
              {"--nearest", "many", "whole number"},   {"--seed", "4294967296", "4294967295"},
+             {"--gather-rays", "0", "from 1 to 1024"},
              {"--radius", "0", "above 0"},            {"--radius", "-1", "above 0"},
              {"--radius", "nan", "world units"},      {"--radius", "1e99", "above 0"},
              {"--caustic-radius", "1m", "above 0"},   {"--size", "640", "WIDTHxHEIGHT"},

@@ -13,10 +13,10 @@ inline constexpr uint normalDown = 65534u | 65534u << 16;
 /// Photons sorted into a grid, and the map that kernels read.
 class TestMap {
 public:
-    TestMap(const std::vector<Photon>& photons, float radius)
+    TestMap(const std::vector<Photon>& photons, float radius, uint levels = 1)
         : grid(testGpu(), "test"), buffer(testGpu(), "test photons", std::max<std::size_t>(photons.size(), 1)) {
         buffer.upload(photons);
-        map = grid.build(buffer, static_cast<uint>(photons.size()), radius, 1);
+        map = grid.build(buffer, static_cast<uint>(photons.size()), radius, 1, levels);
     }
 
     MapContext context() const { return {.photons = map}; }

@@ -87,8 +87,8 @@ TEST(Random, DimensionsAndSeedsAreUncorrelated) {
 // One point of each of many sequences; chi-square below 5 standard deviations (p about 1e-6).
 TEST(Random, FirstPointsOfManySequencesAreUniform) {
     for (const uint index : {0u, 1u, 1000u}) {
-        std::vector<uvec3> pixels;
-        for (uint i = 0; i < 65'536; i++) pixels.push_back({i, index, 0});
+        std::vector<uvec4> pixels;
+        for (uint i = 0; i < 65'536; i++) pixels.push_back({i, index, 0, SAMPLES_EYE});
         std::vector<uvec3> xs;
         for (const uvec2 s : map<uvec2>("pixel_sampler", pixels)) xs.push_back({s.x, s.y, 2});
         Histogram histogram(16, 16), neighbours(16, 16);
@@ -103,11 +103,10 @@ TEST(Random, FirstPointsOfManySequencesAreUniform) {
 }
 
 TEST(Random, SequencesOfPixelsAndPhotonsDiffer) {
-    std::vector<uvec3> pixels;
-    std::vector<uvec4> photons;
+    std::vector<uvec4> pixels, photons;
     for (uint i = 0; i < 1024; i++)
         for (const uint seed : {0u, 1u, 2u}) {
-            pixels.push_back({i, 5, seed});
+            for (const uint sequence : {SAMPLES_EYE, SAMPLES_GATHER}) pixels.push_back({i, 5, seed, sequence});
             for (const uint kind : {0u, 1u}) photons.push_back({17, i, seed, kind});
         }
     std::set<uint> found;

@@ -146,19 +146,19 @@ TEST_F(ReportProgram, RefusesWhatCannotBe) {
 
 // Stops where the estimate is small enough, at a number of passes that does not depend on how the render was cut.
 TEST_F(ReportProgram, TargetErrorEndsTheRender) {
-    const Result result = run("--scene " + scene("diffuse_box") + " --size 32x24 --photons 3000 --target-error 0.15 -o a.exr --stats a.json");
+    const Result result = run("--scene " + scene("diffuse_box") + " --size 32x24 --photons 3000 --target-error 0.1 -o a.exr --stats a.json");
     ASSERT_EQ(result.code, 0) << result.output;
     EXPECT_THAT(result.output, AllOf(HasSubstr("90 % sure"), Not(HasSubstr("100 %"))));
     const auto stats = nlohmann::json::parse(bytesOf(folder / "a.json"));
-    EXPECT_LE(stats["error"]["relative"], 0.15);
+    EXPECT_LE(stats["error"]["relative"], 0.1);
     const uint passes = stats["passes"];
     EXPECT_GT(passes, 8u);
 
     const std::string part = "--scene " + scene("diffuse_box") + " --size 32x24 --photons 3000 --quiet -o b.exr ";
     ASSERT_EQ(run(part + "--passes " + std::to_string(passes - 1)).code, 0);
-    ASSERT_EQ(run(part + "--target-error 15% --resume").code, 0);
+    ASSERT_EQ(run(part + "--target-error 10% --resume").code, 0);
     EXPECT_EQ(bytesOf(folder / "a.png"), bytesOf(folder / "b.png"));
-    ASSERT_EQ(run(part + "--target-error 15% --resume --stats b.json").code, 0); // nothing is left to do
+    ASSERT_EQ(run(part + "--target-error 10% --resume --stats b.json").code, 0); // nothing is left to do
     EXPECT_EQ(nlohmann::json::parse(bytesOf(folder / "b.json"))["passes"], passes);
 }
 

@@ -100,6 +100,7 @@ TEST(Scene, SettingsOverrideDefaults) {
     EXPECT_EQ(settings.radius, 0.1f);
     EXPECT_EQ(settings.causticRadius, 0.1f);
     EXPECT_EQ(settings.nearest, 5u);
+    EXPECT_EQ(settings.gatherRays, 2u);
     EXPECT_EQ(settings.kernel, KERNEL_CONE);
     EXPECT_TRUE(settings.schlick);
     EXPECT_EQ(settings.seed, 7u);

@@ -22,7 +22,7 @@ from study_page import write_page
 from study_reference import reference_file, scene_digest
 from study_vkpm import LIGHT, ROOT, Failure, Image, Vkpm, flip, read_image, relative_square, say
 
-ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel"}
+ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel", "gather-rays"}
 WITHOUT_PHOTONS = {"path", "direct"}
 
 

@@ -39,8 +39,10 @@ public:
     std::map<std::string, std::uint64_t> memory;
     /// The most bytes that were ever allocated at one time.
     std::uint64_t peakBytes = 0;
-    /// Time spent in kernels, by name.
+    /// Runs of kernels and, while `timesKernels`, the time they take, by name.
     std::map<std::string, KernelTime> times;
+    /// Whether runs are timed; on a CPU the time stamps take some 50 microseconds each, a tenth of a pass.
+    bool timesKernels = false;
 
     struct Handles;
     const std::unique_ptr<Handles> handles;

@@ -15,6 +15,8 @@ struct Recording::Handles {
     std::vector<std::string> names; // of the runs between stamps i and i + 1
     bool open = false;
 
+    bool stamps() const { return gpu.timesKernels && gpu.handles->nanosecondsPerTick > 0; }
+
     // All that ran before is visible to all that runs after.
     void barrier() {
         const vk::MemoryBarrier2 barrier{
@@ -28,7 +30,7 @@ struct Recording::Handles {
     void stamp(std::string name) {
         barrier();
         names.push_back(std::move(name));
-        if (gpu.handles->nanosecondsPerTick > 0) commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
+        if (stamps()) commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
     }
 
     void bind(const RawKernel& kernel, const void* args, std::uint32_t bytes) {
@@ -45,11 +47,11 @@ void Recording::begin() {
     if (handles->names.size() + 2 >= maxStamps) submit();
     if (handles->open) return;
     const auto& vk = *handles->gpu.handles;
-    vk.stamps.reset(0, maxStamps);
+    if (handles->stamps()) vk.stamps.reset(0, maxStamps);
     auto buffers = vk.device.allocateCommandBuffers({.commandPool = *vk.commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
     handles->commands = std::move(buffers[0]);
     handles->commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    if (vk.nanosecondsPerTick > 0) handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
+    if (handles->stamps()) handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
     handles->open = true;
 }
 
@@ -81,15 +83,13 @@ void Recording::clear(const RawBuffer& buffer) {
 // Time between two stamps belongs to the run between them; a queue without stamps gives no times.
 void Recording::addTimes() {
     const auto& vk = *handles->gpu.handles;
-    if (vk.nanosecondsPerTick <= 0) return;
+    for (const std::string& name : handles->names) handles->gpu.times[name].dispatches++;
+    if (!handles->stamps()) return;
     const auto count = static_cast<std::uint32_t>(handles->names.size()) + 1;
     const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
                                                                      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-    for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++) {
-        KernelTime& time = handles->gpu.times[handles->names[i]];
-        time.seconds += double(ticks[i + 1] - ticks[i]) * vk.nanosecondsPerTick * 1e-9;
-        time.dispatches++;
-    }
+    for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++)
+        handles->gpu.times[handles->names[i]].seconds += double(ticks[i + 1] - ticks[i]) * vk.nanosecondsPerTick * 1e-9;
 }
 
 void Recording::submit() {

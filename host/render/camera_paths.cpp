@@ -6,7 +6,7 @@
 namespace vkpm {
 
 const uint maxBounces = 10'000;
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
+const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, wave)),
@@ -21,41 +21,65 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         queries = Buffer<Query>(gpu, "camera queries", size);
         gather.emplace(gpu, settings.showPoints ? "points" : "gather", features);
     }
+    if (features.hasGlobalMap) {
+        gatherPoints = Buffer<GatherPoint>(gpu, "camera gather points", size);
+        split.emplace(gpu, "split", features);
+    }
     const Camera camera = scene.address.read1().camera;
     pixelAngle = 2 * glm::length(camera.up) / float(settings.size.y);
 }
 
-void CameraPaths::bounce(Recording& recording, uint pass, uint first, uint index, const PhotonMaps& maps) {
+void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, samples, shadowRays, queries, queues, compaction.list, compaction.flags, size, first, pass,
-                   settings.seed, index, features.hasCausticMap, maps.nearDistance, pixelAngle, settings.integrator});
+                  {scene.address, paths, hits, samples, shadowRays, queries, gatherPoints, queues, compaction.list, compaction.flags,
+                   size, wave.first, wave.sequence, wave.index, settings.seed, index, features.hasCausticMap, wave.maps.nearDistance, pixelAngle,
+                   settings.integrator});
     compaction.compact(recording);
 
     const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
     if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list, size});
-    if (maps.caustic.cells.address)
-        recording.run(*gather, queues, QUEUE_CAUSTIC, {maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, size});
-    if (maps.global.cells.address)
-        recording.run(*gather, queues, QUEUE_GLOBAL, {maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, size});
+    if (wave.maps.caustic.cells.address)
+        recording.run(*gather, queues, QUEUE_CAUSTIC, {wave.maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, size});
+    if (wave.maps.global.cells.address)
+        recording.run(*gather, queues, QUEUE_GLOBAL, {wave.maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, size});
 }
 
-RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
-    Recording recording(gpu);
-    compaction.start(count);
-    recording.run(eye, count,
-                  {scene.address, paths, samples, compaction.list, size, settings.size, first, count, pass, settings.seed, settings.showPoints});
-
-    // Batches of bounces, until the device says that no path is left.
+/// Batches of bounces, until the device says that no path is left.
+RayCounts CameraPaths::follow(Recording& recording, const Wave& wave, uint index) {
     std::vector<Queue> queues;
-    for (uint index = 0; index < maxBounces;) {
-        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, first, index, maps);
+    while (index < maxBounces) {
+        for (uint i = 0; i < bouncesAtOnce; i++) bounce(recording, wave, index++);
         recording.submit();
         queues = compaction.queues.download();
         if (queues[QUEUE_CONTINUE].count == 0) break;
     }
     return {queues[QUEUE_CONTINUE].base, std::uint64_t(queues[QUEUE_SHADOW].base) + queues[QUEUE_SHADOW].count};
+}
+
+RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
+    Recording recording(gpu);
+    const Wave wave{first, count, SAMPLES_EYE, pass, maps};
+    compaction.start(count);
+    recording.run(eye, count,
+                  {scene.address, paths, samples, compaction.list, gatherPoints, size, settings.size, first, count, pass, settings.seed,
+                   settings.showPoints});
+    RayCounts rays = follow(recording, wave, 0);
+    if (!split || settings.integrator != INTEGRATOR_PHOTON) return rays;
+
+    const uint gatherRays = settings.gatherRays;
+    for (uint ray = 0; ray < gatherRays; ray++) {
+        const Wave gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
+        compaction.start(count);
+        recording.run(*split, count,
+                      {gatherPoints, paths, compaction.list, compaction.flags, first, count, gathering.index, settings.seed,
+                       1 / float(gatherRays)});
+        compaction.compact(recording);
+        rays += follow(recording, gathering, 1);
+        rays.paths -= count; // those that were looked at
+    }
+    return rays;
 }
 
 } // namespace vkpm

@@ -16,9 +16,11 @@ struct PhotonMaps {
 struct RayCounts {
     std::uint64_t paths = 0; // eye and gather rays
     std::uint64_t shadow = 0;
+
+    RayCounts& operator+=(const RayCounts& other) { return paths += other.paths, shadow += other.shadow, *this; }
 };
 
-/// Traces one path per pixel for a range of pixels at a time.
+/// Traces one path per pixel, and gather rays from where it ends, for a range of pixels at a time.
 class CameraPaths {
 public:
     CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, uint wave);
@@ -31,7 +33,16 @@ public:
     Buffer<float> samples; // [column][capacity]
 
 private:
-    void bounce(Recording& recording, uint pass, uint first, uint bounce, const PhotonMaps& maps);
+    /// What the paths under way have in common.
+    struct Wave {
+        uint first; // pixel
+        uint count;
+        uint sequence;
+        uint index; // of the sample
+        const PhotonMaps& maps;
+    };
+    void bounce(Recording& recording, const Wave& wave, uint bounce);
+    RayCounts follow(Recording& recording, const Wave& wave, uint bounce);
 
     Gpu& gpu;
     const UploadedScene& scene;
@@ -44,11 +55,13 @@ private:
     Buffer<Hit> hits;
     Buffer<ShadowRay> shadowRays;
     Buffer<Query> queries;
+    Buffer<GatherPoint> gatherPoints;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;
     std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
+    std::optional<Kernel<SplitArgs>> split;
 };
 
 } // namespace vkpm

@@ -9,9 +9,9 @@ PhotonGrid::PhotonGrid(Gpu& device, std::string label)
     : gpu(device), name(std::move(label)), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells") {}
 
 PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels) {
-    // About as many keys as photons; at least a block's and, if its cells are split, some blocks.
+    // Some keys for each photon, so that few cells share one; at least a block's and, if its cells are split, some blocks.
     const uint least = levels == 0 ? 3 : 3 * (levels + 1) + 6;
-    const uint bits = std::clamp(static_cast<uint>(std::bit_width(count)), least, 26u);
+    const uint bits = std::clamp(static_cast<uint>(std::bit_width(count)) + 2, least, 26u);
     const uint mask = (1u << bits) - 1;
     const float cellsPerUnit = 1 / (2.1f * radius);
     sort.reserve(count);

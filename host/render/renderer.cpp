@@ -59,7 +59,7 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     const PhotonLedger ledger = stages->tracing.trace(pass);
     const float factor = radiusFactor(pass, settings.alpha);
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
-    const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 0;
+    const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 1;
     stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels);
     stages->map.shrink = factor;
     stages->map.kernel = settings.kernel;

@@ -9,13 +9,15 @@ namespace vkpm {
 /// Layers of a picture that may be asked for, bit by bit; the first are those of LAYER_EMISSION and so on.
 const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect", "albedo", "normal", "depth", "noise", "bias"};
 const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8, ASK_BIAS = 9;
+const uint mostGatherRays = 1024;
 const uint allLayers = (1u << layerNames.size()) - 1;
 
 struct Settings {
     uvec2 size{512, 512};                // pixels
     uint passes = 16;                    //
-    uint photons = 200'000;              // emitted into the global map per pass
-    uint causticPhotons = 100'000;       // aimed at specular shapes per pass
+    uint photons = 50'000;               // emitted into the global map per pass
+    uint causticPhotons = 50'000;        // aimed at specular shapes per pass
+    uint gatherRays = 3;                 // from each diffuse point that the eye sees, per pass
     std::optional<float> radius;         // of the first global gather, world units; measured if absent
     std::optional<float> causticRadius;  // likewise of the caustic gather, by region
     uint nearest = 0;                    // first radius: that of the k nearest photons, `radius` at most; 0: not so

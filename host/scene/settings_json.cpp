@@ -12,6 +12,7 @@ std::string settingsJson(const Settings& s) {
                                 {"integrator", integrators[s.integrator]},
                                 {"photons", s.photons},
                                 {"causticPhotons", s.causticPhotons},
+                                {"gatherRays", s.gatherRays},
                                 {"nearest", s.nearest},
                                 {"alpha", s.alpha},
                                 {"kernel", kernels[s.kernel]},
