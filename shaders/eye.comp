@@ -16,7 +16,7 @@ void main() {
     Camera camera = args.scene.at[0].camera;
     args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u);
     args.list.at[slot] = slot;
-    if (hasGlobalMap != 0u) args.gatherPoints.at[slot].flags = NONE;
+    if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
 
     for (uint column = 0u; column < SAMPLE_COLUMNS; column++) args.samples.at[column * args.stride + slot] = 0.0;
 }

@@ -1,7 +1,7 @@
 // Eye paths at the surfaces they hit: light that is seen, and what to ask of shadow rays and photon maps.
 //
-// The photon integrator asks at the first diffuse vertex for direct light and the caustic map, lets gather rays start there,
-// and asks at their ends for the global map. The path integrator goes on and on, and counts the same paths in the same layers.
+// The photon integrator asks at the first diffuse vertex for the caustic map, splits the path there (see split.comp), and asks
+// for the global map where gather rays end. The path integrator goes on and on, and counts the same paths in the same layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -14,6 +14,7 @@
 #include "light.glsl"
 #include "columns.glsl"
 #include "features.glsl"
+#include "direct.glsl"
 
 ARGS(ShadeArgs)
 
@@ -45,25 +46,14 @@ void seeLight(uint slot, Path path, Light light, vec3 normal) {
     addToColumns(args.samples, args.stride, layerColumn(layer), slot, path.throughput * emittedRadiance(light, normal, -path.direction));
 }
 
-// Asks for one light sample, chosen by flux, uniform over the light's area.
+// Asks for one light sample.
 bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight, Sampler s) {
     uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return false;
-    Light light = LightPtr(scene.lights).at[chooseLight(scene, bounceSample(s, 0u).x)];
-    requireLight(scene, light);
-    LightPoint point = sampleLight(light, bounceSample(s, 1u));
-    vec3 toLight = point.position - surface.position;
-    float distance2 = dot(toLight, toLight);
-    vec3 w = toLight * inversesqrt(distance2);
-    float cosine = dot(w, normal) > 0.0 ? max(0.0, dot(w, shading)) : 0.0;
-    vec3 radiance = emittedRadiance(light, point.normal, -w) * (abs(dot(w, point.normal)) * cosine / distance2)
-        * (light.area / light.probability) * weight / PI;
-    if (!(maxComponent(radiance) > 0.0)) return false;
-
-    vec3 lightSide = dot(w, point.normal) > 0.0 ? -point.normal : point.normal;
-    args.shadowRays.at[slot] = ShadowRay(offsetPoint(surface.position, surface.magnitude, normal), surface.primitive,
-        offsetPoint(point.position, point.magnitude, lightSide), radiance, layerColumn(layer));
-    return true;
+    vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
+    ShadowRay ray = sampleDirect(scene, origin, surface.primitive, normal, shading, weight, layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    args.shadowRays.at[slot] = ray;
+    return maxComponent(ray.radiance) > 0.0;
 }
 
 // Returns the bit of the map's queue, or none if there is no such map or nobody asked for the layer.
@@ -75,12 +65,11 @@ uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3
     return 1u << queue;
 }
 
-// Lets gather rays start here.
-void askGatherRays(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight) {
-    if (hasGlobalMap == 0u || !hasLayer(layerOf(path, LAYER_INDIRECT)) || maxComponent(weight) <= 0.0) return;
-    vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
+// Lets light samples and gather rays start here.
+void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight) {
+    if (maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
-    args.gatherPoints.at[slot] = GatherPoint(origin, normal, shading, weight, surface.primitive, flags);
+    args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags);
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
@@ -129,11 +118,12 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
     if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance)
         return askMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
 
+    bool splits = chosen() == INTEGRATOR_PHOTON && first;
     uint queues = 0u;
-    if (askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
+    if (!splits && askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
     if (chosen() == INTEGRATOR_PHOTON && showsCaustics())
         queues |= askMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    if (chosen() == INTEGRATOR_PHOTON && first) askGatherRays(slot, path, surface, normal, shading, weight);
+    if (splits) split(slot, path, surface, normal, shading, weight);
     else if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }

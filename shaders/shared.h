@@ -517,30 +517,31 @@ struct Query {
 };
 BUFFER(Query)
 
-/// A diffuse point that the eye sees, directly or by way of specular surfaces, where gather rays start.
-struct GatherPoint {
+/// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays start.
+struct Split {
     vec3 origin;
     vec3 normal; // geometric, on the side of the viewer
     vec3 shading;
-    vec3 throughput; // of all gather rays together
+    vec3 throughput; // of all gather rays together, the albedo included
     uint from;       // primitive that the rays leave
     uint flags;      // as in Path; NONE: there is no such point
 };
-BUFFER(GatherPoint)
+BUFFER(Split)
 
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(float) samples; // [column][stride]
     PTR(uint) list;
-    PTR(GatherPoint) gatherPoints; // become none
+    PTR(Split) splits; // become none
     uint stride;
     uvec2 size;
     uint firstPixel;
     uint count;
     uint pass;
     uint seed;
-    uint centered; // 1: through the middle of the pixel
+    uint centered;  // 1: through the middle of the pixel
+    uint splitting; // 1: there are splits
 };
 
 struct ShadeArgs {
@@ -550,7 +551,7 @@ struct ShadeArgs {
     PTR(float) samples; // [column][stride]
     PTR(ShadowRay) shadowRays;
     PTR(Query) queries;
-    PTR(GatherPoint) gatherPoints;
+    PTR(Split) splits;
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
@@ -567,15 +568,17 @@ struct ShadeArgs {
 };
 
 struct SplitArgs {
-    PTR(GatherPoint) gatherPoints;
+    PTR(DeviceScene) scene;
+    PTR(Split) splits;
     PTR(Path) paths;
+    PTR(ShadowRay) shadowRays;
     PTR(uint) list;
     PTR(uint) flags;
     uint firstPixel;
     uint count;
     uint index; // of the sample in its sequence
     uint seed;
-    float share; // of a gather ray
+    float share; // of a gather ray and of a light sample
 };
 
 struct ShadowArgs {

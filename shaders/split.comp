@@ -1,27 +1,46 @@
-// Sends a gather ray from each diffuse point that the eye sees, by the cosine law about the shading normal. There are several
-// for a path from the eye (splitting, Arvo & Kirk 1990): the eye's own part is traced once for all of them.
+// Sends from each diffuse point that the eye sees a light sample and a gather ray, the latter by the cosine law about the shading
+// normal. There are several of both for a path from the eye (splitting, Arvo & Kirk 1990), whose own part is traced once for all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
 #include "frame.glsl"
+#include "offset.glsl"
+#include "light.glsl"
+#include "columns.glsl"
+#include "features.glsl"
+#include "direct.glsl"
 
 ARGS(SplitArgs)
 
-bool send(uint slot) {
-    GatherPoint point = args.gatherPoints.at[slot];
-    if (point.flags == NONE) return false;
-    Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, SAMPLES_GATHER);
-    vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), point.shading);
-    if (dot(direction, point.normal) <= 0.0) return false;
-    args.paths.at[slot] = Path(point.origin, direction, args.share * point.throughput, 0.0, point.from, point.flags);
+bool sendLightSample(uint slot, Split from, Sampler s) {
+    uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
+    if (!hasLayer(layer)) return false;
+    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, args.share * from.throughput,
+        layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
+    args.shadowRays.at[slot] = ray;
+    return maxComponent(ray.radiance) > 0.0;
+}
+
+bool sendGatherRay(uint slot, Split from, Sampler s) {
+    if (hasGlobalMap == 0u || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT)) return false;
+    vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
+    if (dot(direction, from.normal) <= 0.0) return false;
+    args.paths.at[slot] = Path(from.origin, direction, args.share * from.throughput, 0.0, from.from, from.flags);
     return true;
+}
+
+uint send(uint slot) {
+    Split from = args.splits.at[slot];
+    if (from.flags == NONE) return 0u;
+    Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, SAMPLES_GATHER);
+    return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW | uint(sendGatherRay(slot, from, s)) << QUEUE_CONTINUE;
 }
 
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
     args.list.at[slot] = slot;
-    args.flags.at[slot] = uint(send(slot)) << QUEUE_CONTINUE;
+    args.flags.at[slot] = send(slot);
 }

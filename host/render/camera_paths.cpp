@@ -21,25 +21,31 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         queries = Buffer<Query>(gpu, "camera queries", size);
         gather.emplace(gpu, settings.showPoints ? "points" : "gather", features);
     }
-    if (features.hasGlobalMap) {
-        gatherPoints = Buffer<GatherPoint>(gpu, "camera gather points", size);
+    if (settings.integrator == INTEGRATOR_PHOTON && features.hasDiffuse) {
+        splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
     }
     const Camera camera = scene.address.read1().camera;
     pixelAngle = 2 * glm::length(camera.up) / float(settings.size.y);
 }
 
+void CameraPaths::castShadowRays(Recording& recording) {
+    const Buffer<Queue>& queues = compaction.queues;
+    const Ptr<Queue> queue{queues.address + QUEUE_SHADOW * sizeof(Queue)};
+    if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue, compaction.list, size});
+}
+
 void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, samples, shadowRays, queries, gatherPoints, queues, compaction.list, compaction.flags,
+                  {scene.address, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list, compaction.flags,
                    size, wave.first, wave.sequence, wave.index, settings.seed, index, features.hasCausticMap, wave.maps.nearDistance, pixelAngle,
                    settings.integrator});
     compaction.compact(recording);
 
+    castShadowRays(recording);
     const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
-    if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue(QUEUE_SHADOW), compaction.list, size});
     if (wave.maps.caustic.cells.address)
         recording.run(*gather, queues, QUEUE_CAUSTIC, {wave.maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, size});
     if (wave.maps.global.cells.address)
@@ -63,19 +69,20 @@ RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps
     const Wave wave{first, count, SAMPLES_EYE, pass, maps};
     compaction.start(count);
     recording.run(eye, count,
-                  {scene.address, paths, samples, compaction.list, gatherPoints, size, settings.size, first, count, pass, settings.seed,
-                   settings.showPoints});
+                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass, settings.seed,
+                   settings.showPoints, split.has_value()});
     RayCounts rays = follow(recording, wave, 0);
-    if (!split || settings.integrator != INTEGRATOR_PHOTON) return rays;
+    if (!split) return rays;
 
     const uint gatherRays = settings.gatherRays;
     for (uint ray = 0; ray < gatherRays; ray++) {
         const Wave gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
         compaction.start(count);
         recording.run(*split, count,
-                      {gatherPoints, paths, compaction.list, compaction.flags, first, count, gathering.index, settings.seed,
+                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, first, count, gathering.index, settings.seed,
                        1 / float(gatherRays)});
         compaction.compact(recording);
+        castShadowRays(recording);
         rays += follow(recording, gathering, 1);
         rays.paths -= count; // those that were looked at
     }

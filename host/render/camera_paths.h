@@ -41,6 +41,7 @@ private:
         uint index; // of the sample
         const PhotonMaps& maps;
     };
+    void castShadowRays(Recording& recording);
     void bounce(Recording& recording, const Wave& wave, uint bounce);
     RayCounts follow(Recording& recording, const Wave& wave, uint bounce);
 
@@ -55,13 +56,13 @@ private:
     Buffer<Hit> hits;
     Buffer<ShadowRay> shadowRays;
     Buffer<Query> queries;
-    Buffer<GatherPoint> gatherPoints;
+    Buffer<Split> splits;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;
     std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
-    std::optional<Kernel<SplitArgs>> split;
+    std::optional<Kernel<SplitArgs>> split; // absent if paths are not split
 };
 
 } // namespace vkpm
