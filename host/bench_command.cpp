@@ -11,8 +11,19 @@
 
 namespace vkpm {
 
-static std::vector<Measurement> measureAll(Gpu& gpu, const Scene& scene) {
+/// Names of measurements end in that of their scene.
+static std::vector<Measurement> raysOf(Gpu& gpu, const Scene& scene, const std::string& name) {
     std::vector<Measurement> all = measureRays(gpu, scene);
+    for (Measurement& m : all) m.name += name;
+    return all;
+}
+
+static std::vector<Measurement> measureAll(Gpu& gpu, const Scene& scene, bool own) {
+    std::vector<Measurement> all = raysOf(gpu, scene, "");
+    if (own) {
+        for (Measurement& m : raysOf(gpu, benchScene(0, 0), "_box")) all.push_back(std::move(m));
+        for (Measurement& m : raysOf(gpu, benchScene(1024, 512), "_million")) all.push_back(std::move(m));
+    }
     all.push_back(measureSort(gpu));
     all.push_back(measureGather(gpu, scene));
     for (Measurement& copy : measureCopies(gpu)) all.push_back(std::move(copy));
@@ -37,9 +48,9 @@ static std::string quantity(double value, const std::string& unit) {
 static void printTable(const nlohmann::ordered_json& about, const std::vector<Measurement>& all) {
     for (const auto& [key, value] : about.items())
         fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-    fmt::print("\n{:<14} {:>15} {:>15} {:>7}  {}\n", "", "vkpm", "yardstick", "ratio", "yardstick is");
+    fmt::print("\n{:<20} {:>15} {:>15} {:>7}  {}\n", "", "vkpm", "yardstick", "ratio", "yardstick is");
     for (const Measurement& m : all)
-        fmt::print("{:<14} {:>15} {:>15} {:>7.3f}  {}\n", m.name, quantity(m.vkpm, m.unit),
+        fmt::print("{:<20} {:>15} {:>15} {:>7.3f}  {}\n", m.name, quantity(m.vkpm, m.unit),
                    quantity(m.yardstick, m.unit), m.ratio, m.against);
     fmt::print("\nMedians of warm runs in pairs; ratio is vkpm over yardstick (of ms, less is better).\n"
                "vkpm by the kernels' time stamps, yardsticks by the wall clock, on all threads.\n");
@@ -78,7 +89,7 @@ static int benchFeatures(const Options& options) {
 
 int bench(const Options& options) {
     if (options.benchFeatures) return benchFeatures(options);
-    const Scene scene = options.scene.empty() ? benchScene() : loadScene(options.scene);
+    const Scene scene = options.scene.empty() ? benchScene(256, 64) : loadScene(options.scene);
     Gpu gpu(options.device);
     gpu.timesKernels = true;
     const nlohmann::ordered_json about{{"device", gpu.info().name},
@@ -87,7 +98,7 @@ int bench(const Options& options) {
                                        {"scene", scene.name},
                                        {"triangles", scene.triangleCount},
                                        {"spheres", scene.primitives.size() - scene.triangleCount}};
-    const std::vector<Measurement> all = measureAll(gpu, scene);
+    const std::vector<Measurement> all = measureAll(gpu, scene, options.scene.empty());
     if (options.json) printJson(about, all);
     else printTable(about, all);
     return 0;

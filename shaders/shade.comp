@@ -65,9 +65,9 @@ uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3
     return 1u << queue;
 }
 
-// Lets light samples and gather rays start here.
+// Lets light samples and gather rays start here, if anyone asks for what they find.
 void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight) {
-    if (maxComponent(weight) <= 0.0) return;
+    if ((hasDirectLayer | hasSpecularLayer | hasIndirectLayer) == 0u || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
     args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags);
 }

@@ -109,6 +109,63 @@ TEST(Light, SpheresAreSampledUniformly) {
     EXPECT_LT(histogram.deviation(), 5);
 }
 
+Light sphereLight(vec3 center, float radius) {
+    const float area = float(4 * pi) * radius * radius;
+    return {.a = center, .u = {radius, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = area, .probability = 1};
+}
+
+std::vector<SeenValues> seenPoints(const Light& light, vec3 origin, uint count) {
+    std::vector<VectorPair> xs;
+    for (const vec2 u : unitSquare(count, 7)) xs.push_back({origin, vec3{u, 0}});
+    return map<SeenValues>("seen_point", xs, {}, sceneWith({light}).context());
+}
+
+// From outside: on the sphere, on the near side, uniform over the solid angle of the cone, near and far.
+TEST(Light, SpheresAreSeenUniformlyByAngle) {
+    const vec3 center{1, -2, 3};
+    for (const float distance : {0.51f, 1.0f, 30.0f}) {
+        const dvec3 axis = glm::normalize(dvec3{1, 2, -0.5});
+        const vec3 origin = vec3(dvec3(center) - double{distance} * axis);
+        const double radius = 0.5, away = glm::length(dvec3(center) - dvec3(origin)), sine2 = radius * radius / (away * away);
+        const double height = sine2 / (1 + std::sqrt(1 - sine2));
+        const dvec3 side = glm::normalize(glm::cross(axis, dvec3{0, 0, 1})), up = glm::cross(side, axis);
+        Histogram histogram(16, 16);
+        for (const SeenValues& y : seenPoints(sphereLight(center, 0.5f), origin, 1 << 18)) {
+            const dvec3 n = (dvec3(y.position) - dvec3(center)) / radius, w = glm::normalize(dvec3(y.position) - dvec3(origin));
+            ASSERT_NEAR(glm::length(n), 1, 1e-5);
+            ASSERT_LT(glm::length(n - dvec3(y.normal)), 1e-5);
+            ASSERT_LT(glm::dot(w, n), 2e-3);
+            ASSERT_NEAR(y.solidAngle, 2 * pi * height, 1e-5 * height);
+            const double x = glm::length(glm::cross(w, axis)), cosine = glm::dot(w, axis);
+            histogram.add(x * x / (1 + cosine) / height, turn(glm::dot(w, side), glm::dot(w, up)));
+        }
+        EXPECT_LT(histogram.deviation(), 5) << distance;
+    }
+}
+
+// The irradiance below a light, in closed form: of a sphere pi sin^2 cos (its rim's and its middle's angles), of a unit square seen
+// from a distance of one under its centre 0.7522746885; from within a sphere everything is seen, a solid angle of 4 pi.
+TEST(Light, SeenPointsGiveTheIrradiance) {
+    const auto irradiance = [](const Light& light, vec3 origin) {
+        double sum = 0;
+        const auto seen = seenPoints(light, origin, 1 << 18);
+        for (const SeenValues& y : seen) {
+            const dvec3 w = glm::normalize(dvec3(y.position) - dvec3(origin));
+            sum += w.z > 0 ? w.z * double{y.solidAngle} : 0;
+        }
+        return sum / double(seen.size());
+    };
+    // Five standard errors of random points.
+    EXPECT_NEAR(irradiance(sphereLight({0, 0, 2}, 1), vec3{0}), pi / 4, 3e-4);
+    EXPECT_NEAR(irradiance(sphereLight({3, 0, 4}, 1), vec3{0}), pi / 25 * 0.8, 6e-5);
+    EXPECT_NEAR(irradiance(sphereLight({0, 0, 1000}, 1), vec3{0}), pi * 1e-6, 1e-10);
+    EXPECT_NEAR(irradiance(rectangle({-0.5f, 0.5f, 1}, {1, 0, 0}, {0, -1, 0}), vec3{0}), 0.7522746885, 2e-3);
+    double whole = 0;
+    const auto within = seenPoints(sphereLight({0, 0, 0}, 1), {0.1f, 0.2f, 0.3f}, 1 << 18);
+    for (const SeenValues& y : within) whole += double{y.solidAngle};
+    EXPECT_NEAR(whole / double(within.size()), 4 * pi, 0.02);
+}
+
 TEST(Light, EmitsOnTheSidesItShould) {
     std::vector<EmittedCase> xs;
     for (const uint twoSided : {0u, 1u})

@@ -112,6 +112,13 @@ struct LightValues {
     vec3 normal;
 };
 
+struct SeenValues {
+    vec3 position;
+    vec3 magnitude;
+    vec3 normal;
+    float solidAngle;
+};
+
 struct EmittedCase {
     Light light;
     vec3 normal;

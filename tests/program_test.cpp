@@ -37,6 +37,18 @@ TEST_F(Program, EveryIntegratorKernelAndViewRenders) {
     }
 }
 
+// Each measurement checks itself that both sides did the same work, or throws.
+TEST_F(Program, BenchMeasures) {
+    const Result result = run("bench --json --scene " + scene("box"));
+    ASSERT_EQ(result.code, 0) << result.output;
+    const auto bench = nlohmann::json::parse(result.output);
+    for (const char* name : {"primary_rays", "bounce_rays", "shadow_rays", "sort", "gather", "copy", "random_copy"}) {
+        EXPECT_GT(bench[name]["vkpm"], 0) << name;
+        EXPECT_GT(bench[name]["yardstick"], 0) << name;
+        EXPECT_GT(bench[name]["ratio"], 0) << name;
+    }
+}
+
 TEST_F(Program, TwoRunsWriteTheSameFiles) {
     for (const char* file : {"a.exr", "b.exr"}) EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o " + file).code, 0);
     EXPECT_TRUE(bytesOf(folder / "a.exr") == bytesOf(folder / "b.exr"));

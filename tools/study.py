@@ -115,6 +115,9 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
     add("--axis", type=axis, action="append", default=[], metavar="NAME=A,B",
         help="an option of vkpm and its values, as photons=50000,200000; several are multiplied, those about photons "
              "only with integrators that have photons")
+    add("--alone", action="store_true",
+        help="do not multiply axes: each option takes its values while all others have their defaults; also writes "
+             "axes.png, the errors at the end by value")
     add("--time", type=number, default=60, metavar="SECONDS", help="of rendering, for each cell and seed (default 60)")
     add("--repeat", type=count, default=1, metavar="N", help="seeds; errors are averaged over them (default 1)")
     add("--references", type=Path, default=Path("references"), metavar="FOLDER",

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 import matplotlib.image
 import numpy as np
+from matplotlib import pyplot
 
 from study_curves import LEFT_OUT, TARGETS, TRUST, Curve, layer_curve, mean_curve, read_rows, without_reference
-from study_plot import COLOURS, Line, plot_layers, plot_one
+from study_plot import COLOURS, Axis, Line, inline, plot_axes, plot_layers, plot_one, style
 from study_vkpm import LIGHT, flip
 
 if TYPE_CHECKING:
@@ -197,6 +198,29 @@ def scene_section(study: "Study", scene: Path) -> str:
         "</section>"])
 
 
+# Each axis by itself.
+
+
+def last_error(study: "Study", scene: Path, pair: tuple[str, str], layer: str) -> float:
+    """The error at the end of an option's value, of the first integrator; NaN if the reference is too noisy to tell."""
+    variants = [variant for variant in study.variants if variant.scene == scene and variant.values == (pair,)]
+    errors = Result(study, variants[0]).layers[layer].errors if variants else []
+    return float(errors[-1]) if len(errors) else float("nan")
+
+
+def axes_section(study: "Study") -> str:
+    """The errors at the end of equal time by the values of each option; also written as axes.png."""
+    layers = ["beauty", "caustic"]
+    scenes = {scene.stem: scene for scene in study.args.scenes}
+    axes = [Axis(name, values, {(stem, layer): [last_error(study, scene, (name, value), layer) for value in values]
+                                for stem, scene in scenes.items() for layer in layers})
+            for name, values in study.args.axis]
+    with pyplot.rc_context(style()):
+        figure = plot_axes(axes, list(scenes), layers, study.args.time)
+        figure.savefig(study.args.output / "axes.png", dpi=110)
+        return f"<section><h2>Each option by itself</h2>{inline(figure)}</section>"
+
+
 # The page.
 
 
@@ -240,7 +264,8 @@ def command_lines(study: "Study") -> str:
 
 def write_page(study: "Study") -> Path:
     """Writes the page of a study whose cells are all finished, and returns its path."""
-    sections = "".join(scene_section(study, scene) for scene in study.args.scenes)
+    sections = axes_section(study) if study.args.alone else ""
+    sections += "".join(scene_section(study, scene) for scene in study.args.scenes)
     page = f"""<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>vkpm: error against time</title><style>{STYLE}</style></head><body>

@@ -67,6 +67,33 @@ def plot_one(lines: list[Line]) -> str:
         return inline(figure)
 
 
+@dataclass
+class Axis:
+    """An option with its values, and the errors at the end of equal time by scene and layer, NaN where unknown."""
+
+    name: str
+    values: list[str]
+    errors: dict[tuple[str, str], list[float]]  # of a scene and a layer, one for each value
+
+
+def plot_axes(axes_studied: list[Axis], scenes: list[str], layers: list[str], seconds: float) -> Figure:
+    """A panel for each option and layer; `layers` are rows."""
+    figure, grid = pyplot.subplots(len(layers), len(axes_studied), figsize=(2.4 * len(axes_studied), 2.3 * len(layers)),
+                                   layout="constrained", squeeze=False, sharey="row")
+    for row, layer in zip(grid, layers, strict=True):
+        for axes, axis in zip(row, axes_studied, strict=True):
+            for index, scene in enumerate(scenes):
+                axes.plot(range(len(axis.values)), axis.errors[scene, layer], color=COLOURS[index], marker=MARKERS[index],
+                          markersize=4, linewidth=1.6, label=scene)
+            axes.set_yscale("log")
+            axes.set_xticks(range(len(axis.values)), axis.values, rotation=30, ha="right")
+            axes.set_title(axis.name, loc="left")
+            axes.grid(alpha=0.25, linewidth=0.6, color=INK)
+        row[0].set_ylabel(f"relMSE of {layer}\nafter {seconds:g} s")
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=len(scenes), frameon=False)
+    return figure
+
+
 def plot_layers(lines: list[Line], layers: list[str]) -> str:
     """Small plots of the layers, side by side."""
     if not layers:

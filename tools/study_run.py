@@ -54,8 +54,9 @@ class Variant:
 def matrix(args: argparse.Namespace) -> list[Variant]:
     """All variants, each once: options about photons do not multiply integrators without photons."""
     variants = {}
-    axes = ([(name, value) for value in values] for name, values in args.axis)
-    for scene, integrator, values in product(args.scenes, args.integrators, product(*axes)):
+    axes = [[(name, value) for value in values] for name, values in args.axis]
+    combined = [(pair,) for axis in axes for pair in axis] if args.alone else list(product(*axes))
+    for scene, integrator, values in product(args.scenes, args.integrators, combined):
         kept = tuple(pair for pair in values if integrator not in WITHOUT_PHOTONS or pair[0] not in ABOUT_PHOTONS)
         variants[Variant(scene, integrator, kept)] = None
     return list(variants)

@@ -7,8 +7,6 @@
 namespace vkpm {
 using glm::dvec3;
 
-static constexpr uint around = 256, across = 64; // quads
-
 /// The point of the torus at two angles, in units of a full turn.
 static vec3 torusPoint(double u, double v) {
     const double turn = 2 * std::numbers::pi;
@@ -25,8 +23,8 @@ static void addQuad(Scene& scene, vec3 a, vec3 b, vec3 c, vec3 d) {
     scene.primitives.push_back({a, c, d, 0, NONE, NONE});
 }
 
-static void addTorus(Scene& scene) {
-    const auto point = [](uint i, uint j) {
+static void addTorus(Scene& scene, uint around, uint across) {
+    const auto point = [&](uint i, uint j) {
         return torusPoint(double(i % around) / around, double(j % across) / across);
     };
     for (uint i = 0; i < around; i++)
@@ -45,12 +43,18 @@ static void addBox(Scene& scene) {
         }
 }
 
-Scene benchScene() {
+static void addBalls(Scene& scene) {
+    for (const vec3 center : {vec3{-0.45f, -0.65f, -0.35f}, vec3{0.45f, -0.65f, 0.25f}})
+        scene.primitives.push_back({center, vec3{0.35f, 0, 0}, vec3{0}, 0, NONE, NONE});
+}
+
+Scene benchScene(uint around, uint across) {
     Scene scene;
-    scene.name = "bench";
-    addTorus(scene);
+    addTorus(scene, around, across);
     addBox(scene);
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
+    if (around == 0) addBalls(scene);
+    scene.name = around == 0 ? "a box with two balls" : "a lumpy torus in a box";
     scene.materials = {{MATERIAL_DIFFUSE, vec3{0.7f}, 1}};
     scene.lights = {{{-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, vec3{10}, LIGHT_RECTANGLE, 0, 0.25f, 1}};
     scene.lightCdf = {1};

@@ -21,7 +21,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         queries = Buffer<Query>(gpu, "camera queries", size);
         gather.emplace(gpu, settings.showPoints ? "points" : "gather", features);
     }
-    if (settings.integrator == INTEGRATOR_PHOTON && features.hasDiffuse) {
+    if (settings.integrator == INTEGRATOR_PHOTON && shadow) {
         splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
     }

@@ -14,7 +14,7 @@ const float nearRadii = 3;
 
 // Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the noise
 // of few photons averages out; caustics are looked at directly.
-const float globalPhotonsPerDisc = 20;
+const float globalPhotonsPerDisc = 40;
 const float causticPhotonsPerDisc = 10;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)

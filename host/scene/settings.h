@@ -17,7 +17,7 @@ struct Settings {
     uint passes = 16;                    //
     uint photons = 50'000;               // emitted into the global map per pass
     uint causticPhotons = 50'000;        // aimed at specular shapes per pass
-    uint gatherRays = 3;                 // from each diffuse point that the eye sees, per pass
+    uint gatherRays = 2;                 // from each diffuse point that the eye sees, per pass
     std::optional<float> radius;         // of the first global gather, world units; measured if absent
     std::optional<float> causticRadius;  // likewise of the caustic gather, by region
     uint nearest = 0;                    // first radius: that of the k nearest photons, `radius` at most; 0: not so

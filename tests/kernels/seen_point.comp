@@ -1,0 +1,15 @@
+// Points of the first light of a scene as seen from x.a, by the numbers in x.b.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../map.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "offset.glsl"
+#include "light.glsl"
+#include "features.glsl"
+#include "direct.glsl"
+
+SeenValues values(SeenPoint p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.solidAngle); }
+
+MAP(VectorPair, SeenValues, values(seenPoint(LightPtr(args.scene.at[0].lights).at[0], x.a, x.b.xy)))
