@@ -28,7 +28,7 @@ struct MapStages {
 /// How many paths are under way at a time; the picture does not depend on it.
 struct WaveSizes {
     uint photons = 1u << 17;
-    uint camera = 1u << 18;
+    uint camera = 1u << 17;
 };
 
 /// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
