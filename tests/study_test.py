@@ -20,6 +20,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 from study_curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows  # noqa: E402
 from study_page import time_cell  # noqa: E402
 from study_reference import Part, Reference, refine  # noqa: E402
+from study_run import matrix  # noqa: E402
 from study_vkpm import LIGHT, Vkpm, read_image  # noqa: E402
 
 STUDY = [sys.executable, str(ROOT / "tools/study.py")]
@@ -205,6 +206,17 @@ def finished(output: Path) -> dict[str, int]:
     return {file.parent.name: file.stat().st_mtime_ns for file in output.glob("cells/*/cell.json")}
 
 
+def test_axes_alone() -> None:
+    """Each option takes its values by itself; options about photons do not repeat integrators without any."""
+    axes = [("photons", ["1000", "2000"]), ("fresnel", ["schlick"])]
+    args = argparse.Namespace(scenes=[SCENE], integrators=["photon", "path"], axis=axes, alone=True)
+    assert [variant.label() for variant in matrix(args)] == [
+        "photon photons=1000", "photon photons=2000", "photon fresnel=schlick", "path", "path fresnel=schlick"]
+    args.alone = False
+    assert [variant.label() for variant in matrix(args)] == [
+        "photon photons=1000 fresnel=schlick", "photon photons=2000 fresnel=schlick", "path fresnel=schlick"]
+
+
 def test_matrix(references: Path, output: Path) -> None:
     """An interrupted matrix goes on without what is finished, and its page has all parts."""
     words = ["run", "--scenes", SCENE, "--size", "32x32", "--axis", "photons=1000,4000", "--caustic-photons", 1000,
@@ -222,6 +234,10 @@ def test_matrix(references: Path, output: Path) -> None:
     # Again, nothing is rendered; with another time, everything.
     study(*words)
     assert finished(output) == after
+    study(*words, "--alone")  # of one axis, the same cells
+    assert finished(output) == after
+    assert (output / "axes.png").stat().st_size > 1000
+    assert "Each option by itself" in (output / "index.html").read_text()
     study(*words, "--time", 0.2)
     changed = finished(output)
     assert changed.keys() == after.keys() and not changed.items() & after.items()
@@ -282,6 +298,7 @@ def main() -> None:
         test_files(folder)
         test_reference(folder / "references")
         test_parts(folder / "parts")
+        test_axes_alone()
         test_matrix(folder / "references", folder / "matrix")
         test_report(folder / "references", folder / "report")
         test_refused(folder / "references", folder / "refused")
