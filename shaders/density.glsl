@@ -10,16 +10,23 @@ float densityWeight(uint kernel, float x2) {
     return 1.0;
 }
 
-// Squared distance of a photon that counts for a query, or infinity. It counts if it is nearer than the radius, arrived on
-// the same side, and lies near the tangent plane: within a tenth of the radius, so that curved surfaces keep their photons.
-float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
-    vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
-    float distance2 = dot(d, d);
-    if (distance2 >= radius * radius) return INFINITY;
-    if (abs(dot(d, query.normal)) > 0.1 * radius) return INFINITY;
+// A photon at offset d counts for a query if it is nearer than the radius and lies near the tangent plane, within a tenth of the
+// radius, so that curved surfaces keep their photons,
+bool isNear(vec3 d, Query query, float radius) {
+    return dot(d, d) < radius * radius && abs(dot(d, query.normal)) <= 0.1 * radius;
+}
+
+// and if it arrived on the same side.
+bool isOnSide(PhotonMap map, uint i, Query query) {
     vec3 side = unpackDirection(PhotonPtr(map.photons).at[i].normal);
     float cosine = dot(side, query.normal);
-    return cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side) ? distance2 : INFINITY;
+    return cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side);
+}
+
+// The squared distance of a photon that counts, or infinity.
+float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
+    vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
+    return isNear(d, query, radius) && isOnSide(map, i, query) ? dot(d, d) : INFINITY;
 }
 
 // Sum of the photons' colours under the kernel, and within the disc of half the area under the kernel of that one.
@@ -46,12 +53,8 @@ vec3 estimateWithin(PhotonMap map, Query query, float radius, out vec3 inner) {
         uvec2 range = cellRange(map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
             vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
-            float distance2 = dot(d, d);
-            if (distance2 < radius * radius && abs(dot(d, query.normal)) <= 0.1 * radius) {
-                vec3 side = unpackDirection(PhotonPtr(map.photons).at[i].normal);
-                float cosine = dot(side, query.normal);
-                if (cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side)) addPhoton(map, i, distance2, radius, sums);
-            }
+            if (isNear(d, query, radius)) // nested: a twelfth faster on lavapipe than a function of both
+                if (isOnSide(map, i, query)) addPhoton(map, i, dot(d, d), radius, sums);
         }
     }
     float perArea = 1.0 / (PI * radius * radius);

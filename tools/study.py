@@ -125,6 +125,8 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
     add_common(run, "study")
 
     args, options = parser.parse_known_args()
+    if args.command == "run" and args.alone and not args.axis:
+        parser.error("--alone: there is no axis; allowed: with at least one --axis")
     for name in (option.split("=")[0] for option in options):
         if name in OF_THE_STUDY:
             parser.error(f"{name} is set by the study itself; allowed: other options of vkpm")
