@@ -79,10 +79,20 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
     return abs(dot(wi, n) * dot(wo, geometric)) / max(abs(dot(wi, geometric) * dot(wo, n)), 1e-6);
 }
 
-// Probability with which a path goes on at a specular surface. Light within glass near the critical angle may be reflected
-// for ever without loss: from the 32nd bounce on a tenth ends at each.
-float specularSurvival(vec3 weight, uint bounce) {
-    return min(maxComponent(weight), bounce < 32u ? 1.0 : 0.9);
+// Specular vertices of a path since its last diffuse one, up to 63, and its flags after one more.
+uint specularRun(uint flags) {
+    return (flags & PATH_SPECULARS) / PATH_SPECULAR;
+}
+
+uint afterSpecular(uint flags) {
+    return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR;
+}
+
+// Probability with which a path goes on at a specular surface after a run of others. Light within glass near the critical angle
+// may be reflected for ever without loss: from the 32nd on a tenth ends at each. Only a run counts: in a bright room, where
+// paths have hundreds of vertices, the weights that make up for such ends would grow without bound.
+float specularSurvival(vec3 weight, uint run) {
+    return min(maxComponent(weight), run < 32u ? 1.0 : 0.9);
 }
 
 bool isDiffuse(Material m) {

@@ -27,10 +27,11 @@ bool survives(inout Path path, vec3 color, float probability, float u) {
 
 uint scatterAtSpecular(inout Path path, Material material, Surface surface, Sampler s) {
     vec2 u = sample2(s, 4u * args.bounce + 5u);
+    uint run = specularRun(path.flags);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, path.flags | PATH_SPECULAR);
-    return survives(path, event.weight, specularSurvival(event.weight, args.bounce), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, afterSpecular(path.flags));
+    return survives(path, event.weight, specularSurvival(event.weight, run), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
 }
 
 // The photon as the map keeps it. Its flux makes up for a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
@@ -45,7 +46,7 @@ Photon photonAt(inout Path path, Surface surface, vec3 normal) {
 uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
     if (!survives(path, material.color, maxComponent(material.color), sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, path.flags & ~PATH_SPECULAR);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, path.flags & ~PATH_SPECULARS);
     return FATE_GOES_ON;
 }
 
@@ -64,7 +65,7 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
     uint fate;
     if (!isDiffuse(material)) {
         fate = scatterAtSpecular(path, material, surface, s);
-    } else if (args.caustic != 0u && (path.flags & PATH_SPECULAR) == 0u) {
+    } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
         return FATE_ESCAPED; // aimed at a specular shape, but not one that it hit
     } else {
         vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;

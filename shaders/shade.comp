@@ -40,7 +40,7 @@ uint layerOf(Path path, uint layer) {
 // have the direct part, and the photon integrator has the rest in its maps.
 void seeLight(uint slot, Path path, Light light, vec3 normal) {
     uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
-    if (diffuse > 0u && (chosen() != INTEGRATOR_PATH || (path.flags & PATH_SPECULAR) == 0u)) return;
+    if (diffuse > 0u && (chosen() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     addToColumns(args.samples, args.stride, layerColumn(layer), slot, path.throughput * emittedRadiance(light, normal, -path.direction));
@@ -95,9 +95,10 @@ bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, 
 bool scatterAtSpecular(inout Path path, Material material, Surface surface, float travelled, Sampler s) {
     vec2 u = bounceSample(s, 0u);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
-    float survival = args.bounce < 8u ? 1.0 : specularSurvival(event.weight, args.bounce);
+    uint run = specularRun(path.flags);
+    float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
     if (u.y >= survival) return false;
-    uint flags = path.flags | PATH_SPECULAR | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
+    uint flags = afterSpecular(path.flags) | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
     path = Path(leave(surface, event.direction), event.direction, throughput, travelled, surface.primitive, flags);
     return maxComponent(throughput) > 0.0;

@@ -298,9 +298,10 @@ struct Path {
     uint from;       // primitive that the ray leaves, or NONE
     uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
 };
-const uint PATH_EYE_SPECULAR = 1u; // eye: the first vertex was specular
-const uint PATH_SPECULAR = 2u;     // the last vertex was specular
-const uint PATH_DIFFUSE_SHIFT = 2u;
+const uint PATH_EYE_SPECULAR = 1u;                  // eye: the first vertex was specular
+const uint PATH_SPECULAR = 2u;                      // one specular vertex since the last diffuse one
+const uint PATH_SPECULARS = 63u * PATH_SPECULAR;    // all of these that are counted
+const uint PATH_DIFFUSE_SHIFT = 7u;
 BUFFER(Path)
 
 /// Where a ray ends: distance in units of its direction's length, primitive or NONE, barycentric weights of b and c.

@@ -1,6 +1,7 @@
 /// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
 #include "scene/bvh.h"
 #include "scene/lights.h"
+#include "scene/origin.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
@@ -14,11 +15,12 @@ namespace {
 
 constexpr std::size_t manyShapes = 10'000'000;
 
-View readView(Reader camera) {
+/// The view, with places relative to an origin of coordinates.
+View readView(Reader camera, dvec3 origin) {
     View view;
-    view.origin = camera.at("origin").vector();
+    view.origin = vec3{camera.at("origin").place() - origin};
     const Reader targetReader = camera.at("target");
-    view.target = targetReader.vector();
+    view.target = vec3{targetReader.place() - origin};
     const auto up = camera.find("up");
     if (up) view.up = up->vector();
     if (const auto degrees = camera.find("fieldOfView"))
@@ -124,14 +126,20 @@ void readScene(Reader root, Scene& scene) {
     const Reader shapes = root.at("shapes");
     root.finish();
 
-    scene.view = readView(camera);
+    (void)readView(camera, dvec3{0}); // what is wrong with it comes first
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
     std::map<std::string, uint> indices;
     if (materials) indices = readMaterials(*materials, scene);
 
     ShapeLoader loader{scene, indices};
-    for (const Reader& shape : shapes.elements(1, manyShapes, "an array of shapes, at least one")) loader.add(shape);
+    const std::vector<Reader> all = shapes.elements(1, manyShapes, "an array of shapes, at least one");
+    std::vector<dvec3> places{Reader{camera}.at("origin").place(), Reader{camera}.at("target").place()};
+    for (const Reader& shape : all)
+        if (const auto place = loader.somePlace(shape)) places.push_back(*place);
+    scene.origin = chooseOrigin(places);
+    scene.view = readView(camera, scene.origin);
+    for (const Reader& shape : all) loader.add(shape);
     loader.finish();
 }
 

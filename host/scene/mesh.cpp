@@ -4,6 +4,7 @@
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include <fmt/format.h>
+#define TINYOBJLOADER_USE_DOUBLE // as the library is built
 #include <tiny_obj_loader.h>
 
 namespace vkpm {
@@ -13,7 +14,7 @@ namespace {
 
 using Corners = std::array<tinyobj::index_t, 3>;
 
-vec3 elementAt(const std::vector<tinyobj::real_t>& values, int index) {
+dvec3 elementAt(const std::vector<tinyobj::real_t>& values, int index) {
     const std::size_t first = 3 * static_cast<std::size_t>(index);
     return {values.at(first), values.at(first + 1), values.at(first + 2)};
 }
@@ -27,8 +28,8 @@ std::vector<Corners> triangleCorners(const tinyobj::ObjReader& obj) {
     return triangles;
 }
 
-std::array<vec3, 3> pointsOf(const tinyobj::attrib_t& attributes, const Corners& corners) {
-    std::array<vec3, 3> points;
+std::array<dvec3, 3> pointsOf(const tinyobj::attrib_t& attributes, const Corners& corners) {
+    std::array<dvec3, 3> points;
     for (std::size_t i = 0; i < 3; ++i) points[i] = elementAt(attributes.vertices, corners[i].vertex_index);
     return points;
 }
@@ -37,10 +38,10 @@ std::array<vec3, 3> pointsOf(const tinyobj::attrib_t& attributes, const Corners&
 std::vector<dvec3> angleWeightedNormals(const tinyobj::attrib_t& attributes, const std::vector<Corners>& triangles) {
     std::vector<dvec3> sums(attributes.vertices.size() / 3, dvec3{0});
     for (const Corners& corners : triangles) {
-        const std::array<vec3, 3> points = pointsOf(attributes, corners);
+        const std::array<dvec3, 3> points = pointsOf(attributes, corners);
         for (std::size_t i = 0; i < 3; ++i) {
-            const dvec3 next = dvec3{points[(i + 1) % 3]} - dvec3{points[i]};
-            const dvec3 previous = dvec3{points[(i + 2) % 3]} - dvec3{points[i]};
+            const dvec3 next = points[(i + 1) % 3] - points[i];
+            const dvec3 previous = points[(i + 2) % 3] - points[i];
             const dvec3 normal = glm::cross(next, previous);
             const double length = glm::length(normal);
             if (length == 0) continue;

@@ -14,7 +14,7 @@ enum class Smoothness { fromFile, smooth, flat };
 /// Triangles with their winding as in the file; a triangle without normals is flat.
 struct Mesh {
     struct Triangle {
-        std::array<vec3, 3> points;
+        std::array<glm::dvec3, 3> points;
         std::optional<std::array<vec3, 3>> normals; // not of unit length
     };
     std::vector<Triangle> triangles;

@@ -148,6 +148,11 @@ float Reader::number(Range range) const {
     return narrow;
 }
 
+double Reader::precise() const {
+    (void)number();
+    return value->get<double>();
+}
+
 uint Reader::integer(uint low, uint high) const {
     const double wide = value->is_number() ? value->get<double>() : -1;
     if (!(wide >= low && wide <= high && wide == std::floor(wide)))
@@ -158,6 +163,11 @@ uint Reader::integer(uint low, uint high) const {
 vec3 Reader::vector(Range range) const {
     const std::vector<Reader> parts = elements(3, 3, "an array of 3 numbers, [x, y, z]");
     return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
+}
+
+glm::dvec3 Reader::place() const {
+    const std::vector<Reader> parts = elements(3, 3, "an array of 3 numbers, [x, y, z]");
+    return {parts[0].precise(), parts[1].precise(), parts[2].precise()};
 }
 
 vec3 Reader::color(Range range) const {

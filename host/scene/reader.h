@@ -51,8 +51,10 @@ public:
     std::vector<Reader> elements(std::size_t low, std::size_t high, std::string_view allowed) const;
 
     float number(Range range = anyNumber) const;
+    double precise() const; // a number within the range of float, in double precision
     uint integer(uint low, uint high) const;
     vec3 vector(Range range = anyNumber) const;
+    glm::dvec3 place() const; // three numbers in double precision
     vec3 color(Range range) const; // three numbers, or one for a grey
     bool boolean() const;
     std::string text() const;

@@ -24,6 +24,7 @@ struct View {
 };
 
 struct Scene {
+    glm::dvec3 origin{0}; // in world units, of all coordinates here and on the device
     std::string name; // the file's name without folder and extension
     std::string text; // the scene file as read
     std::vector<Node> nodes;

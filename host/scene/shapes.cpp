@@ -36,6 +36,17 @@ vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
 
 } // namespace
 
+std::optional<dvec3> ShapeLoader::somePlace(Reader shape) try {
+    const Transform transform = readTransform(shape);
+    if (const auto center = shape.find("center")) return transform.point(center->place());
+    if (const auto corner = shape.find("corner")) return transform.point(corner->place());
+    const Mesh& mesh = meshOf(shape);
+    if (mesh.triangles.empty()) return {};
+    return transform.point(mesh.triangles[0].points[0]);
+} catch (const InputError&) {
+    return {};
+}
+
 void ShapeLoader::add(Reader shape) {
     (void)shape.find("name");
     switch (shape.at("type").choice({"sphere", "rectangle", "mesh"})) {
@@ -95,7 +106,7 @@ bool ShapeLoader::isSpecular(const Surface& surface) const {
 }
 
 void ShapeLoader::addSphere(Reader& shape) {
-    const vec3 center = shape.at("center").vector();
+    const dvec3 center = shape.at("center").place();
     const float radius = shape.at("radius").number(positive);
     const Transform transform = readTransform(shape);
     const Surface surface = readSurface(shape);
@@ -106,7 +117,7 @@ void ShapeLoader::addSphere(Reader& shape) {
         shape.at("transform")
             .fail("found a non-uniform scale of a sphere", "scale it uniformly, or use a mesh instead");
     const double scaled = *scale * double{radius};
-    const vec3 a = transform.point(center);
+    const vec3 a = place(transform, center);
     const vec3 b{static_cast<float>(scaled), 0, 0};
     if (!(b.x > 0)) shape.fail("the transform shrinks the sphere to radius 0", "let it keep a radius > 0");
     const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
@@ -116,12 +127,12 @@ void ShapeLoader::addSphere(Reader& shape) {
 }
 
 void ShapeLoader::addRectangle(Reader& shape) {
-    const vec3 corner = shape.at("corner").vector();
+    const dvec3 corner = shape.at("corner").place();
     const Reader edgesReader = shape.at("edges");
     const std::vector<Reader> edges = edgesReader.elements(2, 2, "an array of 2 edges, [u, v]; the normal is u x v");
     const Transform transform = readTransform(shape);
-    vec3 u = transform.direction(edges[0].vector());
-    vec3 v = transform.direction(edges[1].vector());
+    vec3 u{transform.direction(edges[0].place())};
+    vec3 v{transform.direction(edges[1].place())};
     const Surface surface = readSurface(shape);
     shape.finish();
 
@@ -130,26 +141,32 @@ void ShapeLoader::addRectangle(Reader& shape) {
     const double area = soundArea(u, v);
     if (area == 0)
         edgesReader.fail("the edges span no area", "give two edges that are neither of length 0 nor parallel");
-    const vec3 a = transform.point(corner);
+    const vec3 a = place(transform, corner);
     const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
     addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
     addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
     addTarget(surface, std::array{a, a + u, a + u + v, a + v});
 }
 
+const Mesh& ShapeLoader::meshOf(Reader& shape) {
+    const Reader fileReader = shape.at("file");
+    Smoothness smoothness = Smoothness::fromFile;
+    if (const auto smooth = shape.find("smooth")) smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
+    const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
+    const auto known = meshes.find({file, smoothness});
+    if (known != meshes.end()) return known->second;
+    if (const std::string problem = fileProblem(file); !problem.empty())
+        fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
+    return meshes.emplace(std::pair{file, smoothness}, loadMesh(file, smoothness)).first->second;
+}
+
 void ShapeLoader::addMesh(Reader& shape) {
     const Reader fileReader = shape.at("file");
-    const auto smooth = shape.find("smooth");
+    (void)shape.find("smooth");
     const Transform transform = readTransform(shape);
     const Surface surface = readSurface(shape);
     shape.finish();
-
-    Smoothness smoothness = Smoothness::fromFile;
-    if (smooth) smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
-    const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
-    if (const std::string problem = fileProblem(file); !problem.empty())
-        fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
-    const Mesh mesh = loadMesh(file, smoothness);
+    const Mesh& mesh = meshOf(shape);
 
     const std::size_t first = scene.primitives.size();
     for (const Mesh::Triangle& triangle : mesh.triangles) addTriangle(shape, triangle, transform, surface);
@@ -169,8 +186,8 @@ void ShapeLoader::addMesh(Reader& shape) {
 
 void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
                               const Surface& surface) {
-    std::array<vec3, 3> points = triangle.points;
-    for (vec3& point : points) point = transform.point(point);
+    std::array<vec3, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) points[i] = place(transform, triangle.points[i]);
     std::optional<std::array<vec3, 3>> normals = triangle.normals;
 
     // A mirrored triangle keeps its outer side when its winding is reversed.
@@ -185,6 +202,9 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangl
     if (normals) primitive.normals = addNormals(primitive, *normals, transform);
     addFlat(shape, primitive);
 }
+
+/// Of the device: relative to the scene's origin, rounded once.
+vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const { return vec3{transform.point(point) - scene.origin}; }
 
 void ShapeLoader::extendBounds(const Reader& shape, vec3 low, vec3 high) {
     if (!isFinite(low) || !isFinite(high))

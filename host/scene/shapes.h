@@ -15,7 +15,9 @@ public:
     /// `indices` maps names to indices into `scene.materials`.
     ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
 
-    /// Adds one element of "shapes". Throws InputError.
+    /// Some place of a shape, in world units; none if the shape is wrong, which add() tells.
+    std::optional<glm::dvec3> somePlace(Reader shape);
+    /// Adds one element of "shapes", relative to the scene's origin. Throws InputError.
     void add(Reader shape);
     /// Appends the spheres, which follow all triangles.
     void finish();
@@ -30,12 +32,14 @@ private:
     Surface readSurface(Reader& shape);
     uint readMaterial(Reader& shape, bool emits);
     uint blackMaterial();
+    const Mesh& meshOf(Reader& shape);
     void addSphere(Reader& shape);
     void addRectangle(Reader& shape);
     void addMesh(Reader& shape);
     void addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
                      const Surface& surface);
 
+    vec3 place(const Transform& transform, glm::dvec3 point) const;
     void extendBounds(const Reader& shape, vec3 low, vec3 high);
     void addFlat(const Reader& shape, const Primitive& triangle);
     uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area);
@@ -45,6 +49,7 @@ private:
 
     Scene& scene;
     const std::map<std::string, uint>& materials;
+    std::map<std::pair<std::filesystem::path, Smoothness>, Mesh> meshes; // by file, each loaded once
     std::vector<Primitive> spheres;
     uint black = NONE;
 };

@@ -12,24 +12,24 @@ namespace {
 
 dmat4 readRotation(Reader rotation) {
     const Reader axisReader = rotation.at("axis");
-    const dvec3 axis = axisReader.vector();
-    const double degrees = rotation.at("degrees").number();
+    const dvec3 axis = axisReader.place();
+    const double degrees = rotation.at("degrees").precise();
     rotation.finish();
     if (glm::length(axis) == 0) axisReader.fail("the axis has length 0", "give a direction, such as [0, 1, 0]");
     return glm::rotate(dmat4{1}, glm::radians(degrees), axis);
 }
 
 dmat4 readScale(const Reader& scale) {
-    const vec3 factors = scale.isNumber() ? vec3{scale.number()} : scale.vector();
+    const dvec3 factors = scale.isNumber() ? dvec3{scale.precise()} : scale.place();
     if (factors.x == 0 || factors.y == 0 || factors.z == 0)
         scale.fail("found a factor of 0", "allowed are factors other than 0; a negative one mirrors");
-    return glm::scale(dmat4{1}, dvec3{factors});
+    return glm::scale(dmat4{1}, factors);
 }
 
 dmat4 readMatrix(const Reader& reader) {
     const std::vector<Reader> entries = reader.elements(16, 16, "an array of 16 numbers, row by row");
     dmat4 matrix{1};
-    for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = entries[i].number();
+    for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = entries[i].precise();
     if (glm::row(matrix, 3) != dvec4{0, 0, 0, 1})
         reader.fail("the last row is not 0 0 0 1", "only affine matrices are allowed");
     return matrix;
@@ -40,7 +40,7 @@ dmat4 readStep(Reader step) {
         step.fail(step.describe() + (step.keys().empty() ? " without keys" : " with several keys"),
                   "a step has one of \"translate\", \"rotate\", \"scale\" or \"matrix\"");
     dmat4 matrix{1};
-    if (const auto translate = step.find("translate")) matrix = glm::translate(dmat4{1}, dvec3{translate->vector()});
+    if (const auto translate = step.find("translate")) matrix = glm::translate(dmat4{1}, translate->place());
     if (const auto rotate = step.find("rotate")) matrix = readRotation(*rotate);
     if (const auto scale = step.find("scale")) matrix = readScale(*scale);
     if (const auto rows = step.find("matrix")) matrix = readMatrix(*rows);
@@ -64,9 +64,9 @@ Transform::Transform(const Reader& steps) {
                    "let it keep the three dimensions apart");
 }
 
-vec3 Transform::point(vec3 p) const { return vec3{dvec3{matrix * dvec4{dvec3{p}, 1}}}; }
+dvec3 Transform::point(dvec3 p) const { return dvec3{matrix * dvec4{p, 1}}; }
 
-vec3 Transform::direction(vec3 d) const { return vec3{dmat3{matrix} * dvec3{d}}; }
+dvec3 Transform::direction(dvec3 d) const { return dmat3{matrix} * d; }
 
 glm::dvec3 Transform::normal(vec3 n) const { return glm::transpose(glm::inverse(dmat3{matrix})) * dvec3{n}; }
 

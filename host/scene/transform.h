@@ -6,15 +6,15 @@
 
 namespace vkpm {
 
-/// An invertible affine map in double precision; what it yields is rounded to float once.
+/// An invertible affine map in double precision.
 class Transform {
 public:
     Transform() = default;
     /// The steps of "transform" applied in order. Throws InputError for a singular or overflowing one.
     explicit Transform(const Reader& steps);
 
-    vec3 point(vec3 p) const;
-    vec3 direction(vec3 d) const;               // of an edge, with its length
+    glm::dvec3 point(glm::dvec3 p) const;
+    glm::dvec3 direction(glm::dvec3 d) const;   // of an edge, with its length
     glm::dvec3 normal(vec3 n) const;            // on the same side of the surface as before, not of unit length
     bool mirrors() const;                       // whether it turns right hands into left ones
     std::optional<double> uniformScale() const; // the factor of all lengths, if there is one

@@ -1,0 +1,127 @@
+"""Hostile scenes: renders each, checks what must hold, and writes a table and one HTML page with pictures.
+
+What must hold for all: an end within minutes and without an error, no value in any layer that is not finite, no photon lost,
+photons that add up, and no more than three times the time of a tame sibling. Each case has a check of its own besides.
+"""
+
+import argparse
+import html
+import json
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+import extremes_places  # isort: skip: the order of the table
+import extremes_light
+import extremes_photons
+import extremes_shapes
+from extremes_lab import CASES, Case, Lab, Refused, Verdict
+from study_page import STYLE, developed, picture, table
+
+MODULES = (extremes_places, extremes_light, extremes_shapes, extremes_photons)  # each registers its cases
+TIMES = 3  # as long as the tame sibling, at most
+NOISE = 0.15  # seconds that a render may take more for no reason: other work on the machine, kernels compiled anew
+
+
+def arguments() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="tools/extremes", description="Renders hostile scenes and says what came of them.")
+    parser.add_argument("--vkpm", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="keeps the scenes and renders, and writes index.html and table.md")
+    parser.add_argument("--only", default="", metavar="WORDS", help="cases whose group and name have these words")
+    parser.add_argument("--heavy", action="store_true", help="also those that take gigabytes or minutes")
+    parser.add_argument("--device", default="", help="as for vkpm")
+    return parser.parse_args()
+
+
+def ratio(verdict: Verdict) -> float:
+    """Time in units of the tame sibling's, by the work there is."""
+    if not verdict.tame:
+        return 0
+    return max(verdict.render.seconds - NOISE, 0) / (verdict.tame.seconds * verdict.work)
+
+
+def judged(lab: Lab, case: Case) -> tuple[Verdict | None, list[str]]:
+    """A case's verdict, and all that is wrong."""
+    try:
+        verdict = case.judge(lab)
+    except Refused as refusal:
+        return None, refusal.args[0]
+    for _ in range(2):  # what else the machine did counts for nothing
+        if ratio(verdict) <= TIMES:
+            break
+        for render in (verdict.render, verdict.tame):
+            lab.time_again(render)
+    wrong = list(verdict.render.problems)
+    if not verdict.holds:
+        wrong.append("not as expected")
+    if ratio(verdict) > TIMES:
+        wrong.append(f"takes {ratio(verdict):.1f} times as long as its sibling")
+    return verdict, wrong
+
+
+def row(case: Case, verdict: Verdict | None, wrong: list[str]) -> list[str]:
+    """Of the table."""
+    if not verdict:
+        return [case.group, case.name, case.expected, "no picture", "–", "; ".join(wrong)]
+    time = f"{verdict.render.seconds / (verdict.tame.seconds * verdict.work):.1f}" if ratio(verdict) else ""
+    return [case.group, case.name, case.expected, verdict.measured, time or "–", "; ".join(wrong) or "holds"]
+
+
+def thumbnail(verdict: Verdict | None) -> str:
+    """The picture, brought to a middle grey."""
+    if not verdict or verdict.render.code:
+        return ""
+    beauty = verdict.render.layer()
+    grey = beauty.mean() or 1
+    return f'<img width="96" style="image-rendering: pixelated" src="{picture(developed(beauty / grey * 0.25, 0))}">'
+
+
+HEAD = ["", "case", "expected", "measured", "time", ""]
+
+
+def page(rows: list[tuple[list[str], str]], device: str) -> str:
+    """One HTML file."""
+    body = [[html.escape(words[0]), image, *map(html.escape, words[1:])] for words, image in rows]
+    style = STYLE + "td { white-space: normal; text-align: left; }"
+    return (f'<!doctype html><meta charset="utf-8"><title>vkpm: extremes</title><style>{style}</style><h1>Stiff and extreme</h1>'
+            f"<p>{html.escape(device)}. Time is that of rendering, in units of a tame sibling's.</p>"
+            + table(["", "picture", *HEAD[1:]], body))
+
+
+def markdown(rows: list[list[str]]) -> str:
+    """The table for the README."""
+    lines = [HEAD[:-1], ["---"] * 5, *(words[:-1] for words in rows)]
+    return "".join("| " + " | ".join(words) + " |\n" for words in lines)
+
+
+def main() -> int:
+    """Renders, says, writes."""
+    args = arguments()
+    folder = args.output or Path(tempfile.mkdtemp(prefix="vkpm-extremes-"))
+    folder.mkdir(parents=True, exist_ok=True)
+    lab = Lab(args.vkpm, folder.resolve(), args.device)
+    rows, failed = [], 0
+    for case in CASES:
+        if (case.heavy and not args.heavy) or args.only not in f"{case.group} {case.name}":
+            continue
+        verdict, wrong = judged(lab, case)
+        words = row(case, verdict, wrong)
+        rows.append((words, thumbnail(verdict)))
+        failed += bool(wrong)
+        print(f"{'FAILS' if wrong else 'holds'}  {words[0]}: {words[1]}\n       expected {words[2]}\n       measured {words[3]}; "
+              f"time {words[4]}" + "".join(f"\n       {line}" for line in wrong), flush=True)
+    device = next((render.stats["device"] for render in lab.known.values() if not render.code), "no device")
+    print(f"{len(rows)} cases on {device}; {failed} fail")
+    if args.output:
+        (folder / "index.html").write_text(page(rows, device))
+        (folder / "table.md").write_text(markdown([words for words, _ in rows]))
+        (folder / "table.json").write_text(json.dumps([words for words, _ in rows], indent=1))
+    else:
+        shutil.rmtree(folder)
+    return 1 if failed or not rows else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,267 @@
+"""Renders of hostile scenes: what vkpm said, wrote and took, and the checks that hold for all of them."""
+
+import copy
+import hashlib
+import json
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+
+ROOT = Path(__file__).resolve().parent.parent
+LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
+HANG = 300  # seconds after which a render hangs
+
+Scene = dict
+OPTIONS = {"--passes": "4", "--photons": "20000", "--caustic-photons": "20000"}
+
+
+class Refused(Exception):
+    """A render that gave no picture was asked for one."""
+
+
+@dataclass
+class Render:
+    """One run of the program."""
+
+    file: Path
+    command: list[str]
+    code: int = -1
+    messages: str = ""
+    problems: list[str] = field(default_factory=list)  # of those that no render may have
+
+    @cached_property
+    def channels(self) -> dict[str, np.ndarray]:
+        """All channels of the EXR file by name, without the state that a render goes on from."""
+        if self.code:
+            raise Refused(self.problems)
+        channels = OpenEXR.File(str(self.file), separate_channels=True).channels()
+        return {name: channel.pixels for name, channel in channels.items()}
+
+    @cached_property
+    def stats(self) -> dict:
+        """What --stats wrote."""
+        if self.code:
+            raise Refused(self.problems)
+        return json.loads(self.file.with_suffix(".json").read_bytes())
+
+    def layer(self, name: str = "beauty") -> np.ndarray:
+        """Height x width x 3 in doubles; black if the scene has no such layer."""
+        prefix = "" if name == "beauty" else name + "."
+        black = np.zeros_like(self.channels["R"])
+        return np.stack([self.channels.get(prefix + c, black) for c in "RGB"], -1).astype(np.float64)
+
+    def mean(self, name: str = "beauty") -> float:
+        """Of a layer, over pixels and colours."""
+        return float(self.layer(name).mean())
+
+    @property
+    def seconds(self) -> float:
+        """Of rendering, without starting up."""
+        return self.stats["seconds"]["render"]
+
+    def photons(self, kind: str) -> dict[str, int]:
+        """The ledger of a map."""
+        return self.stats["photons"][kind]
+
+
+@dataclass
+class Verdict:
+    """What a case came to: the hostile render, its tame sibling, and the check of its own."""
+
+    render: Render
+    tame: Render | None
+    measured: str
+    holds: bool
+    work: float = 1  # how much more than its sibling it has to do
+    note: str = ""
+
+
+class Lab:
+    """Renders scenes, each once, in a folder."""
+
+    def __init__(self, vkpm: str, folder: Path, device: str):
+        self.vkpm = vkpm
+        self.folder = folder
+        self.device = ["--device", device] if device else []
+        self.known: dict[str, Render] = {}
+
+    def render(self, scene: Scene, *options: str) -> Render:
+        """A render of a scene, with pairs of options that win over those of OPTIONS."""
+        text = json.dumps(scene)
+        pairs = OPTIONS | dict(zip(options[::2], options[1::2], strict=True))
+        words = [word for pair in pairs.items() for word in pair]
+        key = hashlib.sha256(repr((text, words)).encode()).hexdigest()[:16]
+        if key not in self.known:
+            file = self.folder / f"{key}.exr"
+            file.with_suffix(".scene.json").write_text(text)
+            self.known[key] = self.run(file, words)
+        return self.known[key]
+
+    def mesh(self, name: str, points: list, triangles: list) -> str:
+        """Writes an OBJ file beside the scenes; triangles are indices of points."""
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+        lines += ["f " + " ".join(str(i + 1) for i in corners) for corners in triangles]
+        (self.folder / name).write_text("\n".join(lines) + "\n")
+        return name
+
+    def run(self, file: Path, words: list[str]) -> Render:
+        """Runs the program on the scene beside a file."""
+        command = [self.vkpm, "--scene", str(file.with_suffix(".scene.json")), "-o", str(file), "--quiet",
+                   "--stats", str(file.with_suffix(".json")), *self.device, *words]
+        render = Render(file, command)
+        try:
+            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False)
+        except subprocess.TimeoutExpired:
+            render.problems = [f"hangs: no end after {HANG} s"]
+            return render
+        render.code, render.messages = process.returncode, process.stderr.strip()
+        render.problems = problems(render)
+        return render
+
+    def time_again(self, render: Render) -> None:
+        """Runs the same once more, and keeps the better time."""
+        before = render.seconds
+        subprocess.run(render.command, capture_output=True, timeout=HANG, check=True)
+        del render.stats
+        render.stats["seconds"]["render"] = min(before, render.seconds)
+
+
+def problems(render: Render) -> list[str]:
+    """What is wrong with a render whatever its scene is."""
+    if render.code:
+        return [f"ends with code {render.code}: {render.messages}"]
+    found = [f"{name} has values that are not finite" for name, pixels in render.channels.items()
+             if not np.isfinite(pixels).all()]
+    if render.stats["nonfinite"]:
+        found.append(f"{render.stats['nonfinite']} samples were not finite")
+    for kind, count in render.stats["photons"].items():
+        if count["emitted"] != count["absorbed"] + count["escaped"] + count["lost"]:
+            found.append(f"the ledger of {kind} photons does not add up")
+        if count["lost"]:
+            found.append(f"{count['lost']} {kind} photons were lost")
+    return found
+
+
+# Cases.
+
+
+@dataclass
+class Case:
+    """A hostile scene, or several."""
+
+    group: str
+    name: str
+    expected: str
+    judge: Callable[[Lab], Verdict]
+    heavy: bool = False  # gigabytes or minutes
+
+
+CASES: list[Case] = []
+
+
+def case(group: str, name: str, expected: str, heavy: bool = False) -> Callable:
+    """Registers what renders and judges a case."""
+    def register(judge: Callable[[Lab], Verdict]) -> Callable[[Lab], Verdict]:
+        CASES.append(Case(group, name, expected, judge, heavy))
+        return judge
+    return register
+
+
+# Scenes.
+
+
+def shipped(name: str) -> Scene:
+    """A shipped scene, small."""
+    scene = json.loads((ROOT / "scenes" / f"{name}.json").read_bytes())
+    scene["film"] = {"size": [64, 64]}
+    scene.pop("settings", None)
+    return scene
+
+
+def changed(scene: Scene, **members: object) -> Scene:
+    """A copy with other members."""
+    return copy.deepcopy(scene) | copy.deepcopy(members)
+
+
+def scaled(scene: Scene, factor: float) -> Scene:
+    """All lengths times a factor."""
+    def times(value: object) -> object:
+        return [times(x) for x in value] if isinstance(value, list) else value * factor
+    scene = copy.deepcopy(scene)
+    for holder in (scene["camera"], *scene["shapes"]):
+        for key in ("origin", "target", "corner", "edges", "center", "radius"):
+            if key in holder:
+                holder[key] = times(holder[key])
+    return scene
+
+
+def moved(scene: Scene, by: tuple[float, float, float]) -> Scene:
+    """All places moved."""
+    scene = copy.deepcopy(scene)
+    for holder in (scene["camera"], *scene["shapes"]):
+        for key in ("origin", "target", "corner", "center"):
+            if key in holder:
+                holder[key] = [x + d for x, d in zip(holder[key], by, strict=True)]
+    return scene
+
+
+def brighter(scene: Scene, factor: float) -> Scene:
+    """All emission times a factor."""
+    scene = copy.deepcopy(scene)
+    for shape in scene["shapes"]:
+        if "emission" in shape:
+            shape["emission"] = [x * factor for x in shape["emission"]]
+    return scene
+
+
+def without(scene: Scene, *names: str) -> Scene:
+    """Some shapes left out."""
+    return changed(scene, shapes=[shape for shape in scene["shapes"] if shape["name"] not in names])
+
+
+def plus(scene: Scene, *shapes: dict, **materials: dict) -> Scene:
+    """More shapes and materials."""
+    return changed(scene, shapes=scene["shapes"] + list(shapes), materials=scene["materials"] | materials)
+
+
+def rectangle(corner: list, u: list, v: list, **rest: object) -> dict:
+    """A shape."""
+    return {"name": "added", "type": "rectangle", "corner": corner, "edges": [u, v], **rest}
+
+
+def sphere(center: list, radius: float, **rest: object) -> dict:
+    """A shape."""
+    return {"name": "added", "type": "sphere", "center": center, "radius": radius, **rest}
+
+
+# Checks.
+
+
+def off(found: float, expected: float) -> float:
+    """Relative difference."""
+    return found / expected - 1 if expected else np.inf
+
+
+def percent(x: float) -> str:
+    """With its sign."""
+    return f"{100 * x:+.2g} %" if abs(x) >= 1e-5 else f"{x:+.0e}"
+
+
+def same_bits(found: Render, expected: Render, factor: float = 1) -> tuple[str, bool]:
+    """Whether all light is the same to the bit, up to a factor."""
+    differing = sum(int((found.layer(name) != expected.layer(name) * factor).any(-1).sum()) for name in LIGHT)
+    return ("the same bits" if differing == 0 else f"{differing} pixels of layers differ"), differing == 0
+
+
+def same_means(found: Render, expected: Render, tolerance: float, layers: tuple = LIGHT,
+               factor: float = 1) -> tuple[str, bool]:
+    """Whether means of layers are the same within a part of the mean of beauty."""
+    whole = expected.mean() * factor
+    differences = {name: (found.mean(name) - factor * expected.mean(name)) / whole for name in layers}
+    worst = max(differences, key=lambda name: abs(differences[name]))
+    return f"{percent(differences[worst])} ({worst})", abs(differences[worst]) <= tolerance

@@ -1,0 +1,212 @@
+"""Hostile cases of lights and materials."""
+
+from extremes_lab import (LIGHT, Lab, Scene, Verdict, brighter, case, changed, off, percent, plus, rectangle, same_bits,
+                          same_means, shipped, sphere, without)
+
+BOX = shipped("box")
+LAMP = "light"
+GLASS_BALL = [0.45, -0.65, 0.25]
+
+
+def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "256",
+                 layers: tuple = ("beauty",)) -> Verdict:
+    """The photon mapper's means against the path tracer's, as parts of the whole."""
+    render = lab.render(scene, "--passes", "16")
+    truth = lab.render(scene, "--integrator", "path", "--passes", passes)
+    text, holds = same_means(render, truth, tolerance, layers)
+    return Verdict(render, lab.render(tame, "--passes", "16"), text, holds)
+
+
+def by_power(exponent: int) -> None:
+    """A flux that only changes exponents."""
+    @case("light", f"flux × 2^{exponent}", "the same bits, times the factor")
+    def judge(lab: Lab) -> Verdict:
+        tame, render = lab.render(BOX), lab.render(brighter(BOX, 2.0**exponent))
+        return Verdict(render, tame, *same_bits(render, tame, 2.0**exponent))
+
+
+def by_factor(factor: float) -> None:
+    """A flux that rounds."""
+    @case("light", f"flux × {factor:g}", "means within 0.01 %")
+    def judge(lab: Lab) -> Verdict:
+        tame, render = lab.render(BOX), lab.render(brighter(BOX, factor))
+        return Verdict(render, tame, *same_means(render, tame, 1e-4, factor=factor))
+
+
+for power in (-40, 40):
+    by_power(power)
+for times in (1e-12, 1e12):
+    by_factor(times)
+
+
+@case("light", "a lamp of 10^-4 of the room, same flux", "direct and indirect light of a lamp of 10^-2, within 2 %")
+def tiny_lamp(lab: Lab) -> Verdict:
+    def lamp(side: float) -> Scene:
+        emission = [x * (0.5 / side)**2 for x in (17, 12, 4)]
+        return plus(without(BOX, LAMP), rectangle([-side / 2, 0.99, -side / 2], [side, 0, 0], [0, 0, side], emission=emission))
+    tame, render = lab.render(lamp(0.02), "--passes", "16"), lab.render(lamp(2e-4), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.02, ("direct", "indirect", "caustic")))
+
+
+@case("light", "the whole ceiling shines", "each layer's mean of the path tracer within 2 %")
+def whole_ceiling(lab: Lab) -> Verdict:
+    ceiling = rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], emission=[1, 1, 1], material="white")
+    return against_path(lab, plus(without(BOX, LAMP, "ceiling"), ceiling), 0.02, layers=LIGHT)
+
+
+@case("light", "a lamp inside the glass ball", "mean of the path tracer within 2 %")
+def lamp_in_glass(lab: Lab) -> Verdict:
+    return against_path(lab, plus(without(BOX, LAMP), sphere(GLASS_BALL, 0.15, emission=[17, 12, 4])), 0.02, passes="1024")
+
+
+@case("light", "two lamps, flux 10^9 : 1", "the brighter one's bits, but for one path in 10^9")
+def two_lamps(lab: Lab) -> Verdict:
+    weak = rectangle([-0.9, 0.98, -0.9], [0.01, 0, 0], [0, 0, 0.01], emission=[17e-9 * 2500, 12e-9 * 2500, 4e-9 * 2500])
+    tame, render = lab.render(BOX), lab.render(plus(BOX, weak))
+    return Verdict(render, tame, *same_means(render, tame, 1e-3))
+
+
+@case("light", "two lamps, the weak one first", "the brighter one's picture: means within 0.5 %")
+def weak_lamp_first(lab: Lab) -> Verdict:
+    weak = rectangle([-0.9, 0.98, -0.9], [0.01, 0, 0], [0, 0, 0.01], emission=[17e-9 * 2500, 12e-9 * 2500, 4e-9 * 2500])
+    render = lab.render(changed(BOX, shapes=[weak, *BOX["shapes"]]))
+    tame = lab.render(BOX)
+    return Verdict(render, tame, *same_means(render, tame, 5e-3))
+
+
+@case("light", "1,000 lamps in place of one", "means within 1 %")
+def many_lamps(lab: Lab) -> Verdict:
+    side = 0.5 / 32
+    lamps = [rectangle([-0.25 + side * (i % 32), 0.99, -0.25 + side * (i // 32)], [side, 0, 0], [0, 0, side], emission=[17, 12, 4])
+             for i in range(1024)]
+    tame, render = lab.render(BOX, "--passes", "16"), lab.render(plus(without(BOX, LAMP), *lamps), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.01))
+
+
+@case("light", "a lamp that shines away from everything", "every photon escapes; black but for the lamp")
+def lamp_outward(lab: Lab) -> Verdict:
+    away = rectangle([-0.25, 1.5, -0.25], [0, 0, 0.5], [0.5, 0, 0], emission=[17, 12, 4])
+    render = lab.render(plus(without(BOX, LAMP), away))
+    escaped = all(ledger["escaped"] == ledger["emitted"] for ledger in render.stats["photons"].values())
+    dark = sum(render.mean(name) for name in LIGHT)
+    return Verdict(render, lab.render(BOX), f"light {dark:g}, {'all' if escaped else 'not all'} escape", escaped and dark == 0)
+
+
+# Matter.
+
+
+def diffuse(albedo: float) -> dict:
+    """A grey material."""
+    return {"type": "diffuse", "albedo": albedo}
+
+
+@case("matter", "all albedos 0", "direct light alone, the same bits as ever")
+def black(lab: Lab) -> Verdict:
+    names = ("white", "red", "green")
+    scene = changed(without(BOX, "mirror ball", "glass ball"), materials=BOX["materials"] | {name: diffuse(0) for name in names})
+    render = lab.render(scene)
+    rest = sum(render.mean(name) for name in ("direct", "indirect", "caustic", "specular"))
+    return Verdict(render, lab.render(BOX), f"reflected {rest:g}, emission {render.mean('emission'):.3g}",
+                   rest == 0 and render.mean("emission") > 0)
+
+
+def furnace(albedo: float, tolerance: float) -> None:
+    """A closed sphere whose wall shines and reflects: L = E / (1 - a) everywhere."""
+    @case("matter", f"closed furnace of albedo {albedo:g}", f"E / (1 - a) = {1 / (1 - albedo):.6g} within {tolerance:.1%}")
+    def judge(lab: Lab) -> Verdict:
+        def wall(a: float) -> Scene:
+            corners = [([-1, -1, 1], [2, 0, 0], [0, 0, -2]), ([-1, 1, -1], [2, 0, 0], [0, 0, 2]), ([-1, -1, -1], [2, 0, 0], [0, 2, 0]),
+                       ([-1, -1, 1], [0, 0, -2], [0, 2, 0]), ([1, -1, -1], [0, 0, 2], [0, 2, 0]), ([1, -1, 1], [-2, 0, 0], [0, 2, 0])]
+            return {"camera": {"origin": [0, 0, 0.5], "target": [0, 0, -1], "fieldOfView": 90}, "film": {"size": [32, 32]},
+                    "materials": {"wall": diffuse(a)},
+                    "shapes": [rectangle(*corner, emission=[1, 1, 1], material="wall") for corner in corners]}
+        tame = lab.render(wall(0.5), "--photons", "2000", "--passes", "8")
+        render = lab.render(wall(albedo), "--photons", "2000", "--passes", "8")
+        ratio = off(render.mean(), 1 / (1 - albedo))
+        return Verdict(render, tame, percent(ratio), abs(ratio) <= tolerance, work=0.5 / (1 - albedo))
+
+
+furnace(0.9, 0.01)
+furnace(0.999, 0.02)
+
+
+@case("matter", "closed room of albedo 1", "photons end where a bounce can bring no more than rounding; finite")
+def white_room(lab: Lab) -> Verdict:
+    front = rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white")
+    scene = plus(changed(BOX, camera=BOX["camera"] | {"origin": [0, 0, 0.99]}), front)
+    bright = changed(scene, materials=scene["materials"] | {name: diffuse(1) for name in ("white", "red", "green")})
+    render = lab.render(bright, "--photons", "1000", "--passes", "16")
+    truth = lab.render(bright, "--integrator", "path", "--passes", "256")
+    difference = off(render.mean(), truth.mean())
+    return Verdict(render, lab.render(scene, "--photons", "1000", "--passes", "16"), percent(difference), abs(difference) < 0.05,
+                   work=200)
+
+
+def by_index(ior: float, other: float, tolerance: float, expected: str) -> None:
+    """A ball of an index that is hardly one."""
+    @case("matter", f"index of refraction {ior!r}", expected)
+    def judge(lab: Lab) -> Verdict:
+        def ball(index: float) -> Scene:
+            return changed(BOX, materials=BOX["materials"] | {"glass": {"type": "glass", "ior": index}})
+        tame = lab.render(ball(other), "--passes", "16")
+        render = lab.render(ball(ior), "--passes", "16")
+        return Verdict(render, tame, *same_means(render, tame, tolerance))
+
+
+def clear(lab: Lab) -> Verdict:
+    """A ball of index 1 against no ball."""
+    scene = changed(BOX, materials=BOX["materials"] | {"glass": {"type": "glass", "ior": 1}})
+    render, tame = lab.render(scene, "--passes", "16"), lab.render(without(BOX, "glass ball"), "--passes", "16")
+    return Verdict(render, lab.render(BOX, "--passes", "16"), *same_means(render, tame, 0.01, ("beauty",)))
+
+
+case("matter", "index of refraction 1 exactly", "the mean of no ball at all within 1 %")(clear)
+for index in (1 - 1e-6, 1 + 1e-6, 1.001):
+    by_index(index, 1, 0.01, "layers as of index 1, within 1 %")
+
+
+@case("matter", "index of refraction 3", "mean of the path tracer within 2 %")
+def dense(lab: Lab) -> Verdict:
+    return against_path(lab, changed(BOX, materials=BOX["materials"] | {"glass": {"type": "glass", "ior": 3}}), 0.02)
+
+
+@case("matter", "a light guide of 40 total reflections", "mean of the path tracer within 2 %")
+def guide(lab: Lab) -> Verdict:
+    # A thin bar of glass from the lamp to near the floor.
+    side, low, high = 0.05, -0.9, 0.985
+    a, b = [-side / 2, low, -side / 2], [side / 2, high, side / 2]
+    ex, ey, ez = [side, 0, 0], [0, high - low, 0], [0, 0, side]
+    walls = [(a, ex, ez), ([a[0], high, b[2]], ex, [0, 0, -side]), (a, ey, ex), ([a[0], low, b[2]], ex, ey), ([a[0], low, a[2]], ez, ey),
+             ([b[0], low, a[2]], ey, ez)]
+    bar = [rectangle(*wall, material="glass") for wall in walls]
+    scene = plus(without(BOX, "glass ball", "mirror ball"), *bar)
+    return against_path(lab, scene, 0.02, passes="512")
+
+
+@case("matter", "glass in glass, touching at a point; two blocks that share a face", "mean of the path tracer within 2 %")
+def touching(lab: Lab) -> Verdict:
+    x, y, z = GLASS_BALL
+    inner = sphere([x, y - 0.1, z], 0.25, material="inner")  # touches the outer ball from inside
+    def block(cx: float) -> list[dict]:
+        c, e = [cx, -0.99, -0.3], 0.25
+        faces = [(c, [e, 0, 0], [0, 0, e]), ([c[0], c[1] + e, c[2]], [0, 0, e], [e, 0, 0]), (c, [0, e, 0], [e, 0, 0]),
+                 ([c[0], c[1], c[2] + e], [e, 0, 0], [0, e, 0]), (c, [0, 0, e], [0, e, 0]), ([c[0] + e, c[1], c[2]], [0, e, 0], [0, 0, e])]
+        return [rectangle(*face, material="glass") for face in faces]
+    scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25), inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
+    return against_path(lab, scene, 0.02, passes="512")
+
+
+@case("matter", "mirrors of reflectance 1 face each other", "mean of the path tracer within 2 %, no hang")
+def mirrors(lab: Lab) -> Verdict:
+    perfect = {"type": "mirror", "reflectance": 1}
+    scene = without(BOX, "left", "right", "mirror ball")
+    scene = plus(scene, rectangle([-1, -1, 1], [0, 0, -2], [0, 2, 0], material="perfect"),
+                 rectangle([1, -1, -1], [0, 0, 2], [0, 2, 0], material="perfect"), perfect=perfect)
+    return against_path(lab, scene, 0.02, passes="512")
+
+
+@case("matter", "glass tint of 10^-6", "mean of the path tracer within 2 %")
+def tinted(lab: Lab) -> Verdict:
+    return against_path(lab, changed(BOX, materials=BOX["materials"] | {"glass": {"type": "glass", "ior": 1.5, "tint": 1e-6}}), 0.02)
+
+
