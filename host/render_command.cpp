@@ -253,6 +253,9 @@ int Job::finish() {
     if (renderer.film.passCount() == 0) return 130; // nothing to save: an older picture stays
     if (nonfinite())
         fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
+    for (const MapKind kind : {MapKind::global, MapKind::caustic})
+        if (const std::uint64_t lost = renderer.photons(kind).lost)
+            fmt::print(stderr, "vkpm: warning: {} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light\n", lost, maxBounces);
     const std::vector<Pixel> pixels = renderer.film.download();
     save(pixels);
     error = estimateOf(pixels);

@@ -492,8 +492,31 @@ struct ArrangeArgs {
 struct CellsArgs {
     PTR(uint) keys;
     PTR(uint) cells;
+    PTR(uint) crowded; // becomes 1 if a cell has more photons than MOST_PER_CELL
     uint count;
     uint cellMask;
+};
+
+const uint MOST_PER_CELL = 256u; // photons that a gather reads of a cell at most, see crowd.glsl
+
+struct CrowdArgs {
+    PTR(uint) keys;
+    PTR(uint) cells;
+    PTR(uint) stays; // 1 for those that do
+    uint count;
+    uint pass;
+};
+
+struct ThinArgs {
+    PTR(Photon) photons;
+    PTR(uint) order;
+    PTR(uint) keys;
+    PTR(uint) cells;
+    PTR(uint) places; // prefix sums of CrowdArgs.stays
+    PTR(Photon) arranged;
+    PTR(uint) thinnedKeys;
+    uint count;
+    uint pass;
 };
 
 // ---- The camera pass ----------------------------------------------------------------------------

@@ -5,7 +5,6 @@
 
 namespace vkpm {
 
-const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)

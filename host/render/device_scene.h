@@ -5,6 +5,9 @@
 
 namespace vkpm {
 
+/// Bounces after which a path ends: a photon is lost, a path from the eye finds no more light.
+const uint maxBounces = 10'000;
+
 /// Uploads the arrays of a scene once; kernels read them through `address`.
 class UploadedScene {
 public:

@@ -6,15 +6,37 @@
 namespace vkpm {
 
 PhotonGrid::PhotonGrid(Gpu& device, std::string label)
-    : gpu(device), name(std::move(label)), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells") {}
+    : gpu(device), name(std::move(label)), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells"), crowded(gpu, name + " crowded", std::vector<uint>{0}) {}
 
-PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels) {
+/// Whether the last cells written were.
+bool PhotonGrid::isCrowded() {
+    const uint found = crowded.read1();
+    if (found) crowded.upload(std::vector<uint>{0});
+    return found != 0;
+}
+
+/// Arranges the photons that stay, and writes the cells anew.
+void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint mask, uint pass) {
+    if (!thinning) thinning.emplace(Thinning{{gpu, "crowd"}, {gpu, "scan"}, {gpu, "thin"}, {gpu, name + " whole", 1}});
+    const Queue all{.count = count};
+    thinning->whole.upload(std::span(&all, 1));
+    Recording recording(gpu);
+    recording.run(thinning->crowd, count, {sort.keys, cells, sort.spareValues, count, pass});
+    recording.run(thinning->scan, GROUP, {sort.spareValues, thinning->whole, 1, 1});
+    recording.run(thinning->thin, count, {photons, sort.values, sort.keys, cells, sort.spareValues, arranged, sort.spareKeys, count, pass});
+    recording.submit();
+    const uint left = sort.spareValues.read1(count);
+    recording.run(cellStarts, left + 1ull, {sort.spareKeys, cells, crowded, left, mask});
+    recording.submit();
+}
+
+PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels, std::optional<uint> pass) {
     // Some keys for each photon, so that few cells share one; at least a block's and, if its cells are split, some blocks.
     const uint least = levels == 0 ? 3 : 3 * (levels + 1) + 6;
     const uint bits = std::clamp(static_cast<uint>(std::bit_width(count)) + 2, least, 26u);
     const uint mask = (1u << bits) - 1;
     const float cellsPerUnit = 1 / (2.1f * radius);
-    sort.reserve(count);
+    sort.reserve(count + 1ull); // thinning counts them
     if (arranged.size() < count) {
         arranged = {};
         arranged = Buffer<Photon>(gpu, name + " in cells", photons.size());
@@ -27,9 +49,10 @@ PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float rad
     Recording recording(gpu);
     recording.run(keys, count, {photons, sort.keys, sort.values, count, cellsPerUnit, levels, mask});
     sort.sort(recording, count, bits);
+    recording.run(cellStarts, count + 1ull, {sort.keys, cells, crowded, count, mask});
     recording.run(arrange, count, {photons, sort.values, arranged, count});
-    recording.run(cellStarts, count + 1ull, {sort.keys, cells, count, mask});
     recording.submit();
+    if (isCrowded() && pass) thin(photons, count, mask, *pass);
     return {.photons = arranged, .cells = cells, .cellsPerUnit = cellsPerUnit, .cellMask = mask, .levels = levels, .radius = radius, .shrink = 1, .photonFlux = photonFlux};
 }
 

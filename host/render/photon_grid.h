@@ -1,6 +1,7 @@
 /// The sorted spatial hash grid over photons.
 #pragma once
 #include "render/sort.h"
+#include <optional>
 
 namespace vkpm {
 
@@ -10,11 +11,23 @@ public:
     PhotonGrid(Gpu& gpu, std::string name);
 
     /// Sorts the first `count` of `photons` into cells for gathers within `radius` (world units).
-    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. The result has no
-    /// radius field, and is valid until the next build.
-    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0);
+    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of a pass,
+    /// crowded cells are thinned (see crowd.glsl); without one, all photons are there. The result has no radius field, and is
+    /// valid until the next build.
+    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0, std::optional<uint> pass = {});
 
 private:
+    /// What thinning needs, if any cell ever is crowded.
+    struct Thinning {
+        Kernel<CrowdArgs> crowd;
+        Kernel<ScanArgs> scan;
+        Kernel<ThinArgs> thin;
+        Buffer<Queue> whole;
+    };
+
+    bool isCrowded();
+    void thin(const Buffer<Photon>& photons, uint count, uint mask, uint pass);
+
     Gpu& gpu;
     std::string name;
     Sort sort;
@@ -23,6 +36,8 @@ private:
     Kernel<KeysArgs> keys;
     Kernel<ArrangeArgs> arrange;
     Kernel<CellsArgs> cellStarts;
+    Buffer<uint> crowded;
+    std::optional<Thinning> thinning;
 };
 
 } // namespace vkpm

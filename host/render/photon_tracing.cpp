@@ -4,7 +4,6 @@
 
 namespace vkpm {
 
-const uint maxBounces = 10'000;
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
 PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {

@@ -2,6 +2,7 @@
 #include "render/radius.h"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace vkpm {
@@ -17,17 +18,52 @@ static double surfaceArea(const Scene& scene) {
     return area;
 }
 
-float widestRadius(const Scene& scene, uint photons, uint nearest) {
-    const double diagonal = glm::length(glm::dvec3(scene.bounds.high) - glm::dvec3(scene.bounds.low));
-    const double many = 200'000;
-    if (nearest == 0) return static_cast<float>(0.02 * diagonal * std::sqrt(many / std::max<double>(photons, many)));
-    const double wanted = 8.0 * nearest; // more than k photons almost everywhere
-    return static_cast<float>(std::min(0.2 * diagonal, std::sqrt(wanted * surfaceArea(scene) / (std::numbers::pi * std::max(photons, 1u)))));
+/// The box that holds all but a hundredth of the photons at either end of each axis; at least one photon.
+static Bounds middleOf(std::span<const Photon> photons) {
+    Bounds box;
+    std::vector<float> xs(photons.size());
+    const auto few = static_cast<std::ptrdiff_t>(photons.size() / 100);
+    for (int axis = 0; axis < 3; axis++) {
+        std::ranges::transform(photons, xs.begin(), [&](const Photon& photon) { return photon.position[axis]; });
+        std::ranges::sort(xs);
+        box.low[axis] = *(xs.begin() + few);
+        box.high[axis] = *(xs.end() - 1 - few);
+    }
+    return box;
 }
 
-uint mostLevels(const Scene& scene, float radius) {
-    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
-    const double cells = std::max({reach.x, reach.y, reach.z}) / (2.1 * radius);
+static double diagonalOf(const Bounds& box) { return glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)); }
+
+static double reachOf(const Bounds& box) {
+    const vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
+    return std::max({reach.x, reach.y, reach.z});
+}
+
+Extent extentOf(const Scene& scene, std::span<const Photon> some) {
+    const Extent whole{diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene)};
+    if (some.empty()) return whole;
+    const Bounds middle = middleOf(some);
+    const double room = 2; // for those beyond the middle; light in one place is no small scene
+    const double diagonal = room * diagonalOf(middle);
+    return {std::min(whole.diagonal, diagonal), std::min(whole.reach, room * reachOf(middle)), std::min(whole.area, 2 * diagonal * diagonal)};
+}
+
+float widestRadius(const Extent& extent, uint photons, uint nearest) {
+    const double many = 200'000;
+    if (nearest == 0) return static_cast<float>(0.02 * extent.diagonal * std::sqrt(many / std::max<double>(photons, many)));
+    const double wanted = 8.0 * nearest; // more than k photons almost everywhere
+    return static_cast<float>(std::min(0.2 * extent.diagonal, std::sqrt(wanted * extent.area / (std::numbers::pi * std::max(photons, 1u)))));
+}
+
+void requireRadius(const Scene& scene, float radius, std::string_view name) {
+    const double least = std::ldexp(reachOf(scene.bounds), -18); // 64 roundings
+    if (radius < least)
+        throw InputError(fmt::format("{}: found {:.3g}; allowed: at least {:.3g}, since the scene's coordinates reach {:.3g} with the digits of 32-bit floats; without it vkpm chooses",
+                                     name, radius, least, reachOf(scene.bounds)));
+}
+
+uint mostLevels(const Extent& extent, float radius) {
+    const double cells = extent.reach / (2.1 * radius);
     uint levels = MOST_LEVELS;
     while (levels > 0 && std::ldexp(cells, static_cast<int>(levels)) > 0x1p18) levels--;
     return levels;

@@ -15,6 +15,7 @@ void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc, uin
     PhotonMap map = pilot;
     map.fieldPerUnit = cellsPerUnit = cellsPerRadius / pilot.radius;
     map.fieldMask = fieldSize - 1;
+    stride = std::max(stride, (count >> 19) + 1); // or the sums might overflow, were all photons in one cell
     const Buffer<uint> sums(gpu, "pilot sums", 2 * fieldSize);
     Recording recording(gpu);
     recording.clear(sums);

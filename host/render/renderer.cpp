@@ -9,6 +9,9 @@ namespace vkpm {
 // those of any pass of a render; one for all does not.
 const uint firstPass = 0, noPass = NONE;
 
+// Photons that say how large the scene is to its light.
+const uint photonsForExtent = 8192;
+
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
 
@@ -25,10 +28,11 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
       camera(gpu, scene, sceneHas, settings, waves.camera), film(gpu, settings.size, sceneHas) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
+        if (radius) requireRadius(input, *radius, kind == MapKind::caustic ? "--caustic-radius or /settings/causticRadius" : "--radius or /settings/radius");
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
         stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
-                                 flux / float(photons), radius.value_or(widestRadius(input, photons, settings.nearest))});
-        if (!radius && settings.nearest == 0 && !settings.showPoints) measureRadii(*stages, mostLevels(input, stages->radius), perDisc, kind == MapKind::global);
+                                 flux / float(photons), radius.value_or(0.0f)});
+        if (!radius) measureRadii(*stages, input, photons, perDisc, kind == MapKind::global);
     };
     if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
@@ -41,8 +45,13 @@ PhotonLedger Renderer::photons(MapKind kind) const {
     return stages ? stages->ledger : PhotonLedger{};
 }
 
-void Renderer::measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius) {
-    const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius ? firstPass : noPass).stored);
+void Renderer::measureRadii(MapStages& stages, const Scene& input, uint photons, float perDisc, bool oneRadius) {
+    const bool byDensity = settings.nearest == 0 && !settings.showPoints;
+    const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius || !byDensity ? firstPass : noPass).stored);
+    const Extent extent = extentOf(input, stages.tracing.photons.download(std::min(stored, photonsForExtent)));
+    stages.radius = widestRadius(extent, photons, settings.nearest);
+    if (!byDensity) return;
+    const uint levels = mostLevels(extent, stages.radius);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
     stages.field.emplace(gpu).measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
@@ -60,7 +69,9 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     const float factor = radiusFactor(pass, settings.alpha);
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
     const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 1;
-    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels);
+    // Points are shown as they are, and the k nearest are those of all photons.
+    const std::optional<uint> thinned = settings.showPoints || settings.nearest ? std::nullopt : std::optional(pass);
+    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels, thinned);
     stages->map.shrink = factor;
     stages->map.kernel = settings.kernel;
     stages->map.nearest = settings.nearest;

@@ -49,7 +49,7 @@ public:
     PhotonLedger photons(MapKind kind) const;
 
 private:
-    void measureRadii(MapStages& stages, uint levels, float perDisc, bool oneRadius);
+    void measureRadii(MapStages& stages, const Scene& scene, uint photons, float perDisc, bool oneRadius);
     void buildMap(std::optional<MapStages>& stages, uint pass);
 
     Gpu& gpu;

@@ -11,9 +11,9 @@ Sort::Sort(Gpu& device)
 
 void Sort::reserve(std::uint64_t count) {
     if (keys.size() >= count) return;
-    for (Buffer<uint>* buffer : {&keys, &values, &otherKeys, &otherValues, &sums}) *buffer = {};
-    for (Buffer<uint>* buffer : {&keys, &otherKeys}) *buffer = Buffer<uint>(gpu, "sort keys", count);
-    for (Buffer<uint>* buffer : {&values, &otherValues}) *buffer = Buffer<uint>(gpu, "sort values", count);
+    for (Buffer<uint>* buffer : {&keys, &values, &spareKeys, &spareValues, &sums}) *buffer = {};
+    for (Buffer<uint>* buffer : {&keys, &spareKeys}) *buffer = Buffer<uint>(gpu, "sort keys", count);
+    for (Buffer<uint>* buffer : {&values, &spareValues}) *buffer = Buffer<uint>(gpu, "sort values", count);
     sums = Buffer<uint>(gpu, "sort sums", (count + SORT_BLOCK - 1) / SORT_BLOCK * digits + 1);
 }
 
@@ -25,9 +25,9 @@ void Sort::sort(Recording& recording, uint count, uint bits) {
     for (uint shift = 0; shift < bits; shift += SORT_BITS) {
         recording.run(countDigits, threads, {keys, sums, count, shift});
         recording.run(scan, GROUP, {sums, queue, digits, SORT_BLOCK});
-        recording.run(scatter, threads, {keys, values, otherKeys, otherValues, sums, count, shift});
-        std::swap(keys, otherKeys);
-        std::swap(values, otherValues);
+        recording.run(scatter, threads, {keys, values, spareKeys, spareValues, sums, count, shift});
+        std::swap(keys, spareKeys);
+        std::swap(values, spareValues);
     }
 }
 

@@ -16,11 +16,11 @@ public:
 
     Buffer<uint> keys;
     Buffer<uint> values;
+    Buffer<uint> spareKeys; // free between sorts
+    Buffer<uint> spareValues;
 
 private:
     Gpu& gpu;
-    Buffer<uint> otherKeys;
-    Buffer<uint> otherValues;
     Buffer<uint> sums;
     Buffer<Queue> queue;
     Kernel<SortCountArgs> countDigits;

@@ -1,0 +1,13 @@
+// Which photons stay in a map whose crowded cells are thinned.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "crowd.glsl"
+
+ARGS(CrowdArgs)
+
+void main() {
+    uint i = threadIndex();
+    if (i < args.count) args.stays.at[i] = min(weightAfterThinning(args.keys, args.cells, i, args.pass), 1u);
+}

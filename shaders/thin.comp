@@ -1,0 +1,20 @@
+// Copies the photons that stay when crowded cells are thinned, with the flux of those that do not, and their keys.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "crowd.glsl"
+
+ARGS(ThinArgs)
+
+void main() {
+    uint i = threadIndex();
+    if (i >= args.count) return;
+    uint weight = weightAfterThinning(args.keys, args.cells, i, args.pass);
+    if (weight == 0u) return;
+    uint place = args.places.at[i];
+    Photon photon = args.photons.at[args.order.at[i]];
+    photon.color *= float(weight);
+    args.arranged.at[place] = photon;
+    args.thinnedKeys.at[place] = args.keys.at[i];
+}
