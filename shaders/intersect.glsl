@@ -1,4 +1,5 @@
-// Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far.
+// Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far; needs
+// sphere.glsl.
 
 // A ray with what its tests need; `direction` need not be of unit length.
 struct Ray {
@@ -71,18 +72,22 @@ float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
     return intersectPermuted(ray, permute(a, major), permute(b, major), permute(c, major), weights);
 }
 
-// The nearer root that is > 0, or -1; the discriminant from the distance of the line to the centre,
-// the roots without cancellation (Haines et al. 2019).
-float intersectSphere(Ray ray, vec3 center, float radius) {
+// The nearer root that is > 0, or -1; `pole` is the sphere's point next to the origin of coordinates. For origins within two
+// radii of the centre the power of the origin leaves no cancellation that matters; for those farther away, to which the sphere
+// is small, the discriminant comes from the distance of the line to the centre. The roots are without cancellation (Haines et al. 2019).
+float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
-    float b = -dot(f, ray.direction);
+    float distance2 = dot(f, f);
+    bool isNear = distance2 < 4.0 * radius * radius;
+    float b = -(dot(ray.origin - pole, ray.direction) + dot(pole - center, ray.direction));
+    float power = spherePower(ray.origin, center, pole);
     vec3 closest = f + (b / a) * ray.direction;
-    float discriminant = radius * radius - dot(closest, closest);
+    float discriminant = isNear ? b * b - a * power : a * (radius * radius - dot(closest, closest));
     if (discriminant < 0.0) return -1.0;
-    float distance = sqrt(dot(f, f));
-    float c = (distance - radius) * (distance + radius);
-    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(a * discriminant);
+    float distance = sqrt(distance2);
+    float c = isNear ? power : (distance - radius) * (distance + radius);
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant);
     float near = min(c / q, q / a);
     float far = max(c / q, q / a);
     return q == 0.0 ? -1.0 : near > 0.0 ? near : far > 0.0 ? far : -1.0;

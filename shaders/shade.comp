@@ -9,6 +9,7 @@
 #include "sampling.glsl"
 #include "frame.glsl"
 #include "offset.glsl"
+#include "sphere.glsl"
 #include "surface.glsl"
 #include "material.glsl"
 #include "light.glsl"

@@ -120,7 +120,8 @@ const uint LEAF_FIRST = 0x07ffffffu;
 BUFFER(Node)
 
 /// A primitive as traversal reads it, in the order of the leaves (spatial splits may repeat one):
-/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x.
+/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x, whose point next to the
+/// origin of coordinates is c.
 struct Leaf {
     vec3 a;
     vec3 b;

@@ -6,6 +6,7 @@
 #include "kernel.glsl"
 #include "frame.glsl"
 #include "camera.glsl"
+#include "sphere.glsl"
 #include "intersect.glsl"
 #include "traverse.glsl"
 #include "offset.glsl"

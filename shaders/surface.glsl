@@ -26,10 +26,13 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive);
 }
 
-// The hit point is projected onto the sphere, so that its error is that of one rounding, not of t.
+// The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t; needs sphere.glsl.
 Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
-    vec3 normal = normalize(along - p.a);
-    return Surface(p.a + p.b.x * normal, abs(p.a) + p.b.x, normal, normal, p.material, p.light, hit.primitive);
+    vec3 f = along - p.a;
+    float distance = length(f);
+    vec3 normal = f / distance;
+    vec3 position = along - spherePower(along, p.a, p.c) / (distance + p.b.x) * normal;
+    return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive);
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {

@@ -11,7 +11,8 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit h
     vec2 weights = vec2(0.0);
     float t;
     if (hasSpheres != 0u && (hasTriangles == 0u || id >= scene.triangleCount)) {
-        t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x);
+        t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x,
+            LeafPtr(scene.leaves).at[slot].c);
     } else {
         // Loads in the order of the ray's axes save the exchange.
         floatPtr numbers = floatPtr(scene.leaves);

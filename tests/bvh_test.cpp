@@ -89,7 +89,7 @@ uint largestStack(const Bvh& bvh, uint child, uint height) {
 }
 
 Primitive triangle(vec3 a, vec3 b, vec3 c) { return {a, b, c, 0, NONE, NONE}; }
-Primitive sphere(vec3 center, float radius) { return {center, {radius, 0, 0}, vec3{0}, 0, NONE, NONE}; }
+Primitive sphere(vec3 center, float radius) { return {center, {radius, 0, 0}, poleOf(center, radius), 0, NONE, NONE}; }
 
 /// Triangles, long and short, and spheres, small and large, all about the origin.
 Shapes randomShapes(uint triangles, uint spheres, float scale) {

@@ -1,4 +1,5 @@
 /// Rays against single triangles, spheres and boxes, compared with double precision.
+#include "scene/box.h"
 #include "judge.h"
 #include "map.h"
 #include <gtest/gtest.h>
@@ -67,6 +68,11 @@ SphereCase passing(Random& random, double pass, double distance) {
     return {vec3(center + radius * (pass * across - distance * direction)), vec3(direction), vec3(center), float(radius)};
 }
 
+std::vector<SphereCase> withPoles(std::vector<SphereCase> xs) {
+    for (SphereCase& x : xs) x.pole = poleOf(x.center, x.radius);
+    return xs;
+}
+
 // The true distance of the line of a ray from the centre, in radii.
 double passOf(const SphereCase& x) {
     return glm::length(glm::cross(dvec3(x.origin) - dvec3(x.center), dvec3(x.direction))) / glm::length(dvec3(x.direction)) / double{x.radius};
@@ -81,7 +87,7 @@ TEST(Intersect, SpheresNearTheTangent) {
     Random random(2);
     std::vector<SphereCase> xs;
     for (int i = 0; i < 100'000; i++) xs.push_back(passing(random, 1 + random.between(-1e-3f, 1e-3f), 10));
-    const auto ys = map<float>("intersect_sphere", xs);
+    const auto ys = map<float>("intersect_sphere", withPoles(xs));
     for (std::size_t i = 0; i < xs.size(); i++) {
         // The line's distance is known to about ten roundings of the distance of ten radii and of the centre's coordinates.
         const double pass = passOf(xs[i]), slack = 5e-6 * (1 + 1 / double{xs[i].radius});
@@ -101,7 +107,7 @@ TEST(Intersect, SpheresFarAway) {
             x.direction = vec3(glm::normalize(dvec3(aim) - dvec3(x.origin)));
             xs.push_back(x);
         }
-        const auto ys = map<float>("intersect_sphere", xs);
+        const auto ys = map<float>("intersect_sphere", withPoles(xs));
         for (std::size_t i = 0; i < xs.size(); i++) {
             // Directions are rounded too: at 1e6 radii by a tenth of a radius, and t by as much.
             const double pass = passOf(xs[i]), expected = glm::length(dvec3(xs[i].center) - dvec3(xs[i].origin)) - std::sqrt(std::max(0.0, 1 - pass * pass)) * double{xs[i].radius};
@@ -118,11 +124,30 @@ TEST(Intersect, SpheresFromInside) {
         const vec3 center = random.cube(1);
         xs.push_back({center + random.cube(0.57f), random.direction() * 3.0f, center, 1});
     }
-    const auto ys = map<float>("intersect_sphere", xs);
+    const auto ys = map<float>("intersect_sphere", withPoles(xs));
     for (std::size_t i = 0; i < xs.size(); i++) {
         ASSERT_GT(ys[i], 0);
         ASSERT_LT(radialError(xs[i], ys[i]), 2e-6);
         ASSERT_GT(glm::dot(xs[i].origin + ys[i] * xs[i].direction - xs[i].center, xs[i].direction), 0) << "not the far side";
+    }
+}
+
+// The ground of a room as a sphere, of up to the size of a planet: hits are as exact as those on a plane.
+TEST(Intersect, SpheresLargerThanTheRoom) {
+    Random random(6);
+    for (const double radius : {1e2, 1e4, 1e6, 1e7}) {
+        std::vector<SphereCase> xs;
+        for (int i = 0; i < 20'000; i++) {
+            const vec3 origin = random.cube(1) + vec3{0, 1.1f, 0}, direction{random.between(-1, 1), -1, random.between(-1, 1)};
+            xs.push_back({origin, direction, vec3(dvec3(0, -radius, 0)), float(radius)});
+        }
+        const auto ys = map<float>("intersect_sphere", withPoles(xs));
+        for (std::size_t i = 0; i < xs.size(); i++) {
+            const dvec3 f = dvec3(xs[i].origin) + dvec3(0, radius, 0), d(xs[i].direction);
+            const double a = glm::dot(d, d), b = -glm::dot(f, d), c = glm::dot(dvec3(xs[i].origin), dvec3(xs[i].origin)) + 2 * radius * double{xs[i].origin.y};
+            const double expected = c / (b + std::sqrt(b * b - a * c));
+            ASSERT_NEAR(ys[i], expected, 3e-6 * std::max(1.0, expected)) << radius;
+        }
     }
 }
 
@@ -134,7 +159,7 @@ TEST(Intersect, SpheresFromTheirSurface) {
         const vec3 n = random.direction(), d = random.direction();
         xs.push_back({2.0f * n, d, vec3(0), 2});
     }
-    const auto ys = map<float>("intersect_sphere", xs);
+    const auto ys = map<float>("intersect_sphere", withPoles(xs));
     for (std::size_t i = 0; i < xs.size(); i++) {
         const double chord = -glm::dot(dvec3(xs[i].origin), dvec3(xs[i].direction)) * 2;
         const bool atOnce = ys[i] == -1 || ys[i] < 1e-5 + 1e-6 / std::abs(chord);

@@ -48,6 +48,7 @@ struct SphereCase {
     vec3 direction;
     vec3 center;
     float radius;
+    vec3 pole;
 };
 
 struct OffsetCase {

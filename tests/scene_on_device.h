@@ -1,5 +1,6 @@
 /// Small scenes for shader tests: shapes to a hierarchy on the device.
 #pragma once
+#include "scene/box.h"
 #include "map.h"
 #include "render/device_scene.h"
 #include "scene/bvh.h"
@@ -20,7 +21,7 @@ inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
 
 inline Primitive triangle(vec3 a, vec3 b, vec3 c) { return {a, b, c, 0, NONE, NONE}; }
 
-inline Primitive sphere(vec3 center, float radius) { return {center, vec3{radius}, vec3{0}, 0, NONE, NONE}; }
+inline Primitive sphere(vec3 center, float radius) { return {center, vec3{radius}, poleOf(center, radius), 0, NONE, NONE}; }
 
 /// A scene whose arrays kernels can read.
 struct TestScene : UploadedScene {

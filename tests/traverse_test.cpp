@@ -124,7 +124,7 @@ std::vector<float> allDistances(const Soup& soup, const std::vector<VectorPair>&
         for (const VectorPair& ray : rays) {
             const Primitive& p = soup.primitives[i];
             if (i < soup.triangleCount) triangles.push_back({ray.a, ray.b, p.a, p.b, p.c});
-            else spheres.push_back({ray.a, ray.b, p.a, p.b.x});
+            else spheres.push_back({ray.a, ray.b, p.a, p.b.x, p.c});
         }
     std::vector<float> distances;
     if (!triangles.empty())

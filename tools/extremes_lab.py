@@ -229,6 +229,9 @@ def plus(scene: Scene, *shapes: dict, **materials: dict) -> Scene:
     return changed(scene, shapes=scene["shapes"] + list(shapes), materials=scene["materials"] | materials)
 
 
+BOX = shipped("box")
+
+
 def rectangle(corner: list, u: list, v: list, **rest: object) -> dict:
     """A shape."""
     return {"name": "added", "type": "rectangle", "corner": corner, "edges": [u, v], **rest}
@@ -265,3 +268,12 @@ def same_means(found: Render, expected: Render, tolerance: float, layers: tuple 
     differences = {name: (found.mean(name) - factor * expected.mean(name)) / whole for name in layers}
     worst = max(differences, key=lambda name: abs(differences[name]))
     return f"{percent(differences[worst])} ({worst})", abs(differences[worst]) <= tolerance
+
+
+def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "256",
+                 layers: tuple = ("beauty",)) -> Verdict:
+    """The photon mapper's means against the path tracer's, as parts of the whole."""
+    render = lab.render(scene, "--passes", "16")
+    truth = lab.render(scene, "--integrator", "path", "--passes", passes)
+    text, holds = same_means(render, truth, tolerance, layers)
+    return Verdict(render, lab.render(tame, "--passes", "16"), text, holds)

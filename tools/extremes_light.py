@@ -1,20 +1,10 @@
 """Hostile cases of lights and materials."""
 
-from extremes_lab import (LIGHT, Lab, Scene, Verdict, brighter, case, changed, off, percent, plus, rectangle, same_bits,
-                          same_means, shipped, sphere, without)
+from extremes_lab import (BOX, LIGHT, Lab, Scene, Verdict, against_path, brighter, case, changed, off, percent, plus, rectangle, same_bits,
+                          same_means, sphere, without)
 
-BOX = shipped("box")
 LAMP = "light"
 GLASS_BALL = [0.45, -0.65, 0.25]
-
-
-def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "256",
-                 layers: tuple = ("beauty",)) -> Verdict:
-    """The photon mapper's means against the path tracer's, as parts of the whole."""
-    render = lab.render(scene, "--passes", "16")
-    truth = lab.render(scene, "--integrator", "path", "--passes", passes)
-    text, holds = same_means(render, truth, tolerance, layers)
-    return Verdict(render, lab.render(tame, "--passes", "16"), text, holds)
 
 
 def by_power(exponent: int) -> None:

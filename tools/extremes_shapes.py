@@ -1,1 +1,120 @@
-"""x"""
+"""Hostile cases of shapes."""
+
+import math
+
+from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, off, plus, rectangle, same_means, sphere,
+                          without)
+
+
+def floor_mesh(file: str) -> Scene:
+    """The box whose floor is a mesh."""
+    return plus(without(BOX, "floor"), {"name": "floor", "type": "mesh", "file": file, "material": "white"})
+
+
+def grid_points(n: int) -> list:
+    """Of a floor of n x n squares."""
+    return [(-1 + 2 * x / n, -1, 1 - 2 * z / n) for z in range(n + 1) for x in range(n + 1)]
+
+
+def grid_triangles(n: int) -> list:
+    """Two for each square."""
+    corners = [(z * (n + 1) + x) for z in range(n) for x in range(n)]
+    return [t for c in corners for t in ((c, c + 1, c + n + 2), (c, c + n + 2, c + n + 1))]
+
+
+@case("shape", "a floor of slivers 2 x 10^-4, zero-area triangles between them", "the box's means within 0.5 %, a warning")
+def slivers(lab: Lab) -> Verdict:
+    n = 20000
+    points = [(-1 + 2 * i / n, -1, z) for i in range(n + 1) for z in (1, -1)]
+    triangles = [t for i in range(0, 2 * n, 2) for t in ((i, i + 2, i + 3), (i, i + 3, i + 1), (i, i, i + 1))]
+    render = lab.render(floor_mesh(lab.mesh("slivers.obj", points, triangles)), "--passes", "16")
+    tame = lab.render(floor_mesh(lab.mesh("even.obj", grid_points(141), grid_triangles(141))), "--passes", "16")
+    text, holds = same_means(render, tame, 0.005)
+    warned = f"{n} of {3 * n} triangles have no area" in render.messages
+    return Verdict(render, tame, f"{text}, {'warned' if warned else 'no warning'}", holds and warned)
+
+
+@case("shape", "every triangle of the floor four times", "the box's means within 0.5 %")
+def duplicates(lab: Lab) -> Verdict:
+    render = lab.render(floor_mesh(lab.mesh("four.obj", grid_points(64), 4 * grid_triangles(64))), "--passes", "16")
+    tame = lab.render(floor_mesh(lab.mesh("one.obj", grid_points(64), grid_triangles(64))), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.005))
+
+
+@case("shape", "a second floor in the plane of the first", "the box's means within 0.5 %")
+def coplanar(lab: Lab) -> Verdict:
+    render = lab.render(plus(BOX, rectangle([-1.3, -1, 1.1], [2.9, 0, 0], [0, 0, -2.7], material="white")), "--passes", "16")
+    tame = lab.render(plus(without(BOX, "floor"), rectangle([-1.3, -1, 1.1], [2.9, 0, 0], [0, 0, -2.7], material="white")), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.005))
+
+
+@case("shape", "a needle of aspect 10^6 across the room", "the box's means within 0.5 %")
+def needle(lab: Lab) -> Verdict:
+    points = [(-0.9, -0.9, -0.9), (0.9, 0.9, 0.9), (0.9, 0.9 + 3e-6, 0.9)]
+    scene = plus(BOX, {"name": "needle", "type": "mesh", "file": lab.mesh("needle.obj", points, [(0, 1, 2)]), "material": "white"})
+    render, tame = lab.render(scene, "--passes", "16"), lab.render(BOX, "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.005))
+
+
+@case("shape", "spheres of radius 10^-6 and 10^6", "mean of the path tracer within 2 %")
+def spheres(lab: Lab) -> Verdict:
+    scene = plus(without(BOX, "floor"), sphere([0, -1 - 1e6, 0], 1e6, material="white"), sphere([0, 0, 0], 1e-6, material="mirror"),
+                 sphere([0.3, 0.2, 0], 1e-6, material="glass"))
+    return against_path(lab, scene, 0.02)
+
+
+@case("shape", "a mesh of one triangle", "mean of the path tracer within 2 %")
+def one_triangle(lab: Lab) -> Verdict:
+    file = lab.mesh("triangle.obj", [(-0.8, -0.9, 0.2), (0.8, -0.9, 0), (0, 0.3, -0.3)], [(0, 1, 2)])
+    scene = plus(without(BOX, "mirror ball", "glass ball"), {"name": "one", "type": "mesh", "file": file, "material": "red"})
+    return against_path(lab, scene, 0.02)
+
+
+@case("shape", "a mesh of 5,000,000 triangles", "the box's means within 0.5 %", heavy=True)
+def many_triangles(lab: Lab) -> Verdict:
+    n = 1582
+    points = [(x, y + 1e-4 * math.sin(7 * i), z) for i, (x, y, z) in enumerate(grid_points(n))]
+    render = lab.render(floor_mesh(lab.mesh("many.obj", points, grid_triangles(n))), "--passes", "16")
+    tame = lab.render(floor_mesh(lab.mesh("even.obj", grid_points(128), grid_triangles(128))), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.005), note=f"{2 * n * n:,} triangles")
+
+
+def dark_room(thickness: float) -> Scene:
+    """Two closed rooms, a lamp in the far one, the camera in the other."""
+    wall = 0.0
+    shapes = [rectangle([-1, -1, 1], [2, 0, 0], [0, 0, -2], material="white"), rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], material="white"),
+              rectangle([-1, -1, -1], [2, 0, 0], [0, 2, 0], material="white"), rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white"),
+              rectangle([-1, -1, 1], [0, 0, -2], [0, 2, 0], material="white"), rectangle([1, -1, -1], [0, 0, 2], [0, 2, 0], material="white"),
+              rectangle([-1, -1, wall], [2, 0, 0], [0, 2, 0], material="white"),
+              rectangle([-1, -1, wall - thickness], [0, 2, 0], [2, 0, 0], material="white"),
+              rectangle([-0.25, 0.99, -0.75], [0.5, 0, 0], [0, 0, 0.5], emission=[17, 12, 4])]
+    return {"camera": {"origin": [0, 0, 0.95], "target": [0, 0, 0], "fieldOfView": 90}, "film": {"size": [64, 64]},
+            "materials": {"white": {"type": "diffuse", "albedo": 0.7}}, "shapes": shapes}
+
+
+@case("shape", "a wall of 10^-4 between a lit and a dark room", "the dark room is darker by 10^5 at least")
+def thin_wall(lab: Lab) -> Verdict:
+    render = lab.render(dark_room(1e-4), "--passes", "16")
+    lit = changed(dark_room(1e-4), camera={"origin": [0, 0, -0.95], "target": [0, 0, -0.1], "fieldOfView": 90})
+    tame = lab.render(lit, "--passes", "16")
+    leak = off(render.mean(), tame.mean()) + 1
+    return Verdict(render, tame, f"{leak:.1e}", leak <= 1e-5)
+
+
+@case("shape", "a smooth ball of 20 triangles, of glass", "mean of the path tracer within 2 %")
+def coarse_glass(lab: Lab) -> Verdict:
+    golden = (1 + math.sqrt(5)) / 2
+    points = [p for a in (-1, 1) for b in (-golden, golden) for p in ((0, a, b), (a, b, 0), (b, 0, a))]
+    edge = 2.0
+    near = {i: [j for j, q in enumerate(points) if 0 < math.dist(p, q) <= edge * 1.01] for i, p in enumerate(points)}
+    triangles = [(i, j, k) for i in near for j in near[i] for k in near[i] if i < j < k and k in near[j]]
+    def outward(corners: tuple) -> tuple:
+        a, b, c = (points[i] for i in corners)
+        u, v = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
+        cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        return corners if sum(x * y for x, y in zip(cross, a, strict=True)) > 0 else (corners[0], corners[2], corners[1])
+    ball = {"name": "ball", "type": "mesh", "file": lab.mesh("ball.obj", points, [outward(t) for t in triangles]), "smooth": True,
+            "material": "glass", "transform": [{"scale": 0.18}, {"translate": [0.45, -0.6, 0.25]}]}
+    return against_path(lab, plus(without(BOX, "glass ball"), ball), 0.02)
+
+

@@ -78,6 +78,11 @@ Bounds scaled(const Bounds& box, int exponent) {
     return {roundedDown(dvec3{box.low} * factor), roundedUp(dvec3{box.high} * factor)};
 }
 
+vec3 poleOf(dvec3 center, double radius) {
+    const double distance = glm::length(center);
+    return vec3{distance > 0 ? center - radius / distance * center : dvec3{radius, 0, 0}};
+}
+
 Bounds boxOf(const Primitive& primitive, bool sphere) {
     if (sphere) {
         const dvec3 center{primitive.a};

@@ -7,6 +7,9 @@ namespace vkpm {
 /// The box times 2^exponent; where that is not exact, it grows.
 Bounds scaled(const Bounds& box, int exponent);
 
+/// The point of a sphere that is next to the origin of coordinates, or any if all are: kernels measure from it.
+vec3 poleOf(glm::dvec3 center, double radius);
+
 /// The box of a triangle, or of a sphere of centre a and radius b.x.
 Bounds boxOf(const Primitive& primitive, bool sphere);
 

@@ -1,6 +1,7 @@
 /// Shapes of a scene file: spheres, rectangles and meshes.
 #include "scene/shapes.h"
 #include "scene/bounding_sphere.h"
+#include "scene/box.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -122,7 +123,7 @@ void ShapeLoader::addSphere(Reader& shape) {
     if (!(b.x > 0)) shape.fail("the transform shrinks the sphere to radius 0", "let it keep a radius > 0");
     const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
     extendBounds(shape, a - b.x, a + b.x);
-    spheres.push_back({a, b, vec3{0}, surface.material, light, NONE});
+    spheres.push_back({a, b, poleOf(transform.point(center) - scene.origin, scaled), surface.material, light, NONE});
     if (isSpecular(surface)) scene.targets.push_back({a, b.x});
 }
 

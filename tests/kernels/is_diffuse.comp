@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
 #include "offset.glsl"
+#include "sphere.glsl"
 #include "surface.glsl"
 #include "material.glsl"
 
