@@ -148,6 +148,77 @@ TEST(Grid, PhotonsOfOneKey) {
     EXPECT_GT(expectNeighbours(photons, queries, onDevice), 200);
 }
 
+// ---- Thinning of crowded cells ------------------------------------------------------------------------------------
+
+// Flux of all photons that a map keeps, and how many these are; each of them had a flux of 1.
+struct Kept {
+    uint most = 0; // in a cell
+    double flux = 0;
+    double centre = 0; // mean of x, weighted by flux
+};
+
+Kept keptIn(const PhotonMap& onDevice) {
+    const MapContext context{.photons = onDevice};
+    std::vector<uint> all(onDevice.cellMask + 2);
+    std::iota(all.begin(), all.end(), 0u);
+    const auto starts = map<uint>("cell_start", all, {}, context);
+    Kept kept;
+    for (std::size_t i = 0; i + 1 < starts.size(); i++) kept.most = std::max(kept.most, starts[i + 1] - starts[i]);
+    std::vector<uint> places(starts.back());
+    std::iota(places.begin(), places.end(), 0u);
+    for (const Photon& photon : map<Photon>("map_photon", places, {}, context)) {
+        kept.flux += double{photon.color.x};
+        kept.centre += double{photon.color.x} * double{photon.position.x};
+    }
+    kept.centre /= kept.flux;
+    return kept;
+}
+
+// No cell has more photons than it may, all flux is there, and it is where it was: the sum of colours exactly, since those that
+// stay carry the flux of whole numbers of others; the mean place as exactly as a random choice among runs allows.
+TEST(Grid, CrowdedCellsAreThinned) {
+    Random random(13);
+    for (const uint count : {257u, 300u, 511u, 1000u, 65'537u, 1'000'000u}) {
+        std::vector<Photon> photons(count);
+        for (Photon& photon : photons) photon = {vec3{random.between(0, 0.5f), random.between(0, 0.5f), 0}, vec3{1}, normalUp};
+        Buffer<Photon> buffer(testGpu(), "photons", photons);
+        PhotonGrid grid(testGpu(), "test");
+        Mean centre;
+        for (uint pass = 0; pass < 16; pass++) {
+            const Kept kept = keptIn(grid.build(buffer, count, 1, 1, 0, pass));
+            ASSERT_EQ(kept.most, MOST_PER_CELL) << count;
+            ASSERT_EQ(kept.flux, count);
+            centre.add(kept.centre);
+        }
+        double truth = 0;
+        for (const Photon& photon : photons) truth += double{photon.position.x} / count;
+        EXPECT_NEAR(centre.mean(), truth, 5 * 0.5 / std::sqrt(12 * MOST_PER_CELL * 16)) << count;
+        EXPECT_EQ(keptIn(grid.build(buffer, count, 1, 1, 0)).most, count) << "thinned though nobody asked";
+    }
+}
+
+// Cells that are not crowded keep all of their photons beside one that is.
+TEST(Grid, OthersStayAsTheyAre) {
+    Random random(14);
+    std::vector<vec3> positions;
+    for (int i = 0; i < 20'000; i++) positions.push_back({random.between(-30, 30), random.between(-30, 30), 0});
+    const std::vector<Query> queries{queryAt({10, 10, 0}), queryAt({-20, 5, 0}), queryAt({3, -17, 0})};
+    std::vector<vec3> expected;
+    for (const bool crowded : {false, true}) {
+        const uint more = crowded ? 50'000 : 0;
+        for (uint i = 0; i < more; i++) positions.push_back({random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f), 0});
+        const auto photons = photonsAt(positions);
+        Buffer<Photon> buffer(testGpu(), "photons", photons);
+        PhotonGrid grid(testGpu(), "test");
+        const PhotonMap built = grid.build(buffer, static_cast<uint>(photons.size()), 1, 1, 1, 5);
+        const auto found = map<vec3>("estimate_within", queries, {}, {.photons = built});
+        if (crowded) {
+            EXPECT_EQ(found, expected);
+        }
+        expected = found;
+    }
+}
+
 // A grid is built anew for each pass: smaller and larger maps after one another.
 TEST(Grid, IsBuiltAnew) {
     PhotonGrid grid(testGpu(), "test");

@@ -17,15 +17,14 @@ case("photons", "0 photons", "no indirect light, no caustics; emission and direc
 
 def few(count: int) -> None:
     """Fewer than a disc holds."""
-    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass", "the mean of many, within 15 %: noise of 4,000 photons")
+    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass", "the mean of many within 25 %: the noise of 512 passes")
     def judge(lab: Lab) -> Verdict:
-        passes = str(4096 // count)
-        options = ("--size", "8x8", "--passes", passes, "--gather-rays", "4")
-        tame = lab.render(BOX, *options)
-        render = lab.render(BOX, *options, "--photons", str(count), "--caustic-photons", str(count), "--radius", "0.5",
-                            "--caustic-radius", "0.5", "--alpha", "1")
+        def discs(photons: int) -> tuple[str, ...]:
+            return ("--size", "8x8", "--passes", "512", "--radius", "0.5", "--caustic-radius", "0.5", "--alpha", "1", "--gather-rays", "4",
+                    "--photons", str(photons), "--caustic-photons", str(photons))
+        tame, render = lab.render(BOX, *discs(64)), lab.render(BOX, *discs(count))
         difference = off(render.mean(), tame.mean())
-        return Verdict(render, tame, percent(difference), abs(difference) <= 0.15)
+        return Verdict(render, tame, percent(difference), abs(difference) <= 0.25)
 
 
 few(1)
@@ -54,50 +53,45 @@ for tiny in ("0", "1e-20", "1e-45"):
     refused(tiny)
 
 
-@case("photons", "both radii larger than the scene", "finite; flux over the disc's area; work bounded")
+@case("photons", "both radii larger than the scene: all photons in one slot of the hash",
+      "all gather rays count as near, and are path traced: mean and time of the path tracer, within 2 %; caustics spread over the disc")
 def wide_radius(lab: Lab) -> Verdict:
-    render = lab.render(BOX, "--radius", "1000", "--caustic-radius", "1000")
-    return Verdict(render, lab.render(BOX), f"indirect {render.mean('indirect'):.2e}", 0 < render.mean("indirect") < 1e-3)
+    balls = lab.render(BOX, "--radius", "1000", "--caustic-radius", "1000")
+    plain = without(BOX, "mirror ball", "glass ball")
+    tame = lab.render(plain, "--passes", "64", "--integrator", "path")
+    render = lab.render(plain, "--passes", "16", "--radius", "1000")
+    difference, caustic = off(render.mean(), tame.mean()), balls.mean("caustic")
+    render.problems += balls.problems
+    return Verdict(render, tame, f"{percent(difference)}, caustic {caustic:.1e}", abs(difference) < 0.02 and 0 < caustic < 1e-5)
 
 
-def lens(caustic_photons: str) -> tuple[Scene, tuple[str, ...]]:
+def lens(caustic_photons: str, field_of_view: float) -> tuple[Scene, tuple[str, ...]]:
     """A small far lamp, which a ball lens gathers half a radius behind it: on the floor."""
     ball = sphere([0, -0.5, 0], 1 / 3, material="glass")
     lamp = rectangle([-0.005, 20, -0.005], [0.01, 0, 0], [0, 0, 0.01], emission=[1e6, 1e6, 1e6])
     floor = rectangle([-2, -1, 2], [4, 0, 0], [0, 0, -4], material="white")
-    scene = {"camera": {"origin": [0, 0.3, 3], "target": [0, -0.7, 0], "fieldOfView": 40}, "film": {"size": [64, 64]},
+    scene = {"camera": {"origin": [0, 0.3, 3], "target": [0, -1, 0], "fieldOfView": field_of_view}, "film": {"size": [64, 64]},
              "materials": BOX["materials"], "shapes": [floor, ball, lamp]}
-    return scene, ("--caustic-photons", caustic_photons)
+    return scene, ("--caustic-photons", caustic_photons, "--passes", "8")
 
 
-@case("photons", "a ball lens brings 2,000,000 photons a pass into one spot", "the caustic's mean by light tracing within 2 %")
+@case("photons", "a ball lens brings 1,000,000 photons a pass into one spot", "the caustic's mean by light tracing within 3 %")
 def focus(lab: Lab) -> Verdict:
-    scene, options = lens("2000000")
+    scene, options = lens("1000000", 1)
     render = lab.render(scene, *options)
-    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "16")
+    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
     spread = changed(scene, shapes=[scene["shapes"][0], sphere([0, 0.6, 0], 1 / 3, material="glass"), scene["shapes"][2]])
     difference = off(render.mean("caustic"), truth.mean("caustic"))
-    return Verdict(render, lab.render(spread, *options), percent(difference), abs(difference) <= 0.02)
+    return Verdict(render, lab.render(spread, *options), percent(difference), abs(difference) <= 0.03)
 
 
 @case("photons", "the same with a radius by hand that holds all of them", "the flux of the caustic by light tracing within 5 %")
 def focus_by_hand(lab: Lab) -> Verdict:
-    scene, options = lens("2000000")
+    scene, options = lens("1000000", 3)
     render = lab.render(scene, *options, "--caustic-radius", "0.05")
-    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "16")
+    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
     difference = off(render.mean("caustic"), truth.mean("caustic"))
     return Verdict(render, lab.render(scene, *options), percent(difference), abs(difference) <= 0.05)
-
-
-@case("photons", "all photons in one cell of the grid", "the mean of light tracing within 2 %; work bounded")
-def one_cell(lab: Lab) -> Verdict:
-    scene, _ = lens("100000")
-    small = plus(without(scene, "no"), rectangle([50, 50, 50], [0.01, 0, 0], [0, 0, 0.01], material="white"))
-    render = lab.render(small, "--caustic-photons", "100000", "--caustic-radius", "2", "--radius", "2")
-    tame = lab.render(small, "--caustic-photons", "100000")
-    expected = lab.render(small, "--caustic-photons", "2000", "--caustic-radius", "2", "--radius", "2", "--passes", "64", "--alpha", "1")
-    _ = expected
-    return Verdict(render, tame, f"caustic {render.mean('caustic'):.3g}", render.mean("caustic") > 0)
 
 
 @case("photons", "a caustic seen only through glass, by way of a mirror", "mean of the path tracer within 3 %")
