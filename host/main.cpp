@@ -29,7 +29,7 @@ int main(int count, char** arguments) {
     try {
         catchInterrupts();
         const int code = run(parseOptions(count, arguments));
-        if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output: write");
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::system_error(errno, std::generic_category(), "standard output: write");
         return code;
     } catch (const InputError& error) {
         std::fprintf(stderr, "vkpm: %s\n", error.what());
