@@ -20,8 +20,10 @@ using nlohmann::json;
 
 #ifdef NDEBUG
 constexpr double mostSeconds = 1;
+constexpr std::uint64_t inputsByDefault = 100'000;
 #else
 constexpr double mostSeconds = 10; // sanitizers, and other work on the machine
+constexpr std::uint64_t inputsByDefault = 20'000;
 #endif
 // A number of two bytes becomes a JSON value of 16, a corner of a face a part of a triangle; Embree has some memory by
 // itself.
@@ -234,7 +236,7 @@ std::string run(const Input& input, bool& accepted, Worst& worst) {
 }
 
 TEST(Fuzz, DamagedScenesAreLoadedWholeOrRefusedByPlace) {
-    const std::uint64_t count = setting("VKPM_FUZZ_INPUTS", 100'000), seed = setting("VKPM_FUZZ_SEED", 1),
+    const std::uint64_t count = setting("VKPM_FUZZ_INPUTS", inputsByDefault), seed = setting("VKPM_FUZZ_SEED", 1),
                         first = setting("VKPM_FUZZ_FIRST", 0);
     for (const int signal : {SIGALRM, SIGSEGV, SIGABRT, SIGFPE}) std::signal(signal, onSignal);
     Inputs inputs;
