@@ -4,8 +4,11 @@
 #include "output/interrupt.h"
 #include "gpu/gpu.h"
 #include "scene/scene.h"
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <new>
+#include <system_error>
 
 using namespace vkpm;
 
@@ -25,10 +28,15 @@ static int run(const Options& options) {
 int main(int count, char** arguments) {
     try {
         catchInterrupts();
-        return run(parseOptions(count, arguments));
+        const int code = run(parseOptions(count, arguments));
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::system_error(errno, std::generic_category(), "standard output: write");
+        return code;
     } catch (const InputError& error) {
         std::fprintf(stderr, "vkpm: %s\n", error.what());
         return 2;
+    } catch (const std::bad_alloc&) {
+        std::fputs("vkpm: out of memory on this machine (not the device's); a smaller scene or image, or fewer photons need less\n", stderr);
+        return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "vkpm: %s\n", error.what());
         return 1;

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "gpu/audit.h"
 #include "gpu/spirv_size.h"
+#include "memory_advice.h"
 #include "render/renderer.h"
 #include "scene/explain.h"
 #include <fmt/format.h>
@@ -55,12 +56,14 @@ int plan(const Options& options) {
     const Settings settings = options.override(scene.settings);
     Gpu gpu(options.device);
     requireSoundDriver(gpu);
-    Renderer renderer(gpu, scene, settings);
-    renderer.renderPass(0);
-    const Json plan{{"scene", scene.name},
+    const Json plan = adviseOnMemory(gpu, scene, settings, [&] {
+        Renderer renderer(gpu, scene, settings);
+        renderer.renderPass(0);
+        return Json{{"scene", scene.name},
                     {"features", featuresJson(renderer.features(), settings)},
                     {"kernels", kernelsJson(gpu, renderer.features())},
                     {"memory", memoryJson(gpu, renderer.features(), settings)}};
+    });
     if (options.json) fmt::print("{}\n", plan.dump(2));
     else print(plan);
     return 0;

@@ -13,6 +13,7 @@
 #include "render/noise.h"
 #include "render/radius.h"
 #include "render/renderer.h"
+#include "memory_advice.h"
 #include "render_file.h"
 #include "scene/explain.h"
 #include "scene/identity.h"
@@ -71,6 +72,7 @@ private:
     void estimate(Progress& progress);
     std::optional<ErrorEstimate> estimateOf(std::span<const Pixel> pixels) const;
     double elapsed() const { return secondsSince(begin) - reporting; }
+    void sayWhatIsSaved() const;
     void addToReport();
     void finishReport(std::span<const Pixel> pixels) const;
     void checkpoint();
@@ -91,6 +93,7 @@ private:
     std::map<std::string, std::string> identity;
     PassRange passes;
     uint restored = 0;              // passes that earlier runs rendered,
+    uint savedPasses = 0;           // that the output holds
     double earlierSeconds = 0;      // the time they took,
     std::uint64_t earlierNonfinite = 0;
     Clock::time_point begin{};      // of rendering
@@ -136,7 +139,7 @@ void Job::resume() {
     if (file.attribute("device") != device)
         fmt::print(stderr, "vkpm: warning: {} was rendered by {}, and goes on on {}: roundings may differ\n", options.output.string(), file.attribute("device"), device);
     restore(renderer.film, file);
-    restored = renderer.film.passCount();
+    restored = savedPasses = renderer.film.passCount();
     earlierNonfinite = std::strtoull(file.attribute("nonfinite").c_str(), nullptr, 10);
     earlierSeconds = std::strtod(file.attribute("seconds").c_str(), nullptr);
     log.write("resume", {{"file", options.output.string()}, {"passes", {file.passes().begin, file.passes().end}}});
@@ -192,7 +195,13 @@ void Job::renderPasses() {
     if (restored > 0) estimate(progress);
     while (!done()) {
         const uint pass = passes.begin + renderer.film.passCount();
-        renderer.renderPass(pass);
+        try {
+            renderer.renderPass(pass);
+        } catch (const GpuError& failure) {
+            log.write("failed", {{"pass", pass}, {"cause", failure.what()}, {"savedPasses", savedPasses}});
+            sayWhatIsSaved();
+            throw;
+        }
         if (report && Report::due(renderer.film.passCount())) addToReport();
         estimate(progress);
         log.write("pass", {{"pass", pass}, {"rays", rays()}, {"radiusFactor", radiusFactor(pass, settings.alpha)}});
@@ -203,10 +212,17 @@ void Job::renderPasses() {
     if (report && renderer.film.passCount() > 0) addToReport();
 }
 
+void Job::sayWhatIsSaved() const {
+    const std::string file = options.output.string();
+    if (savedPasses > 0) fmt::print(stderr, "vkpm: {} holds the first {} of {} passes rendered; the same command with --resume goes on from there\n", file, savedPasses, renderer.film.passCount());
+    else if (renderer.film.passCount() > 0) fmt::print(stderr, "vkpm: {} passes are lost; with --checkpoint SECONDS they are saved on the way\n", renderer.film.passCount());
+}
+
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
 void Job::checkpoint() {
     try {
         save(renderer.film.download());
+        savedPasses = renderer.film.passCount();
         log.write("checkpoint", {{"file", options.output.string()}, {"passes", renderer.film.passCount()}});
     } catch (const std::runtime_error& failure) {
         fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", failure.what());
@@ -281,11 +297,13 @@ int render(const Options& options) {
     Gpu gpu(options.device);
     gpu.timesKernels = options.stats.has_value();
     requireSoundDriver(gpu);
-    Job job(options, scene, settings, gpu);
-    job.start = start;
-    if (options.resume) job.resume();
-    job.renderPasses();
-    return job.finish();
+    return adviseOnMemory(gpu, scene, settings, [&] {
+        Job job(options, scene, settings, gpu);
+        job.start = start;
+        if (options.resume) job.resume();
+        job.renderPasses();
+        return job.finish();
+    });
 }
 
 } // namespace vkpm

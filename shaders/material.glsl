@@ -1,11 +1,17 @@
 // Mirrors and glass: Fresnel reflectance, and the one direction in which light goes on.
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; eta = index beyond / index on the side of incidence,
-// cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). The sums have no cancellation.
+// cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). Where the indices hardly differ, the differences of
+// cosines in the amplitudes would cancel: by Snell's law they are eta^2 - 1 over the sums.
 float fresnelExact(float eta, float cosI, float cosT) {
-    float s = (cosI - eta * cosT) / (cosI + eta * cosT);
-    float p = (eta * cosI - cosT) / (eta * cosI + cosT);
-    return 0.5 * (s * s + p * p);
+    float e2 = eta * eta;
+    float difference = (eta - 1.0) * (eta + 1.0);
+    float sumS = cosI + eta * cosT;
+    float sumP = eta * cosI + cosT;
+    bool near = abs(difference) < 0.25;
+    float s = near ? difference / sumS : cosI - eta * cosT;
+    float p = near ? difference * ((e2 + 1.0) * cosI * cosI - 1.0) / (e2 * sumP) : eta * cosI - cosT;
+    return min(1.0, 0.5 * (s * s / (sumS * sumS) + p * p / (sumP * sumP)));
 }
 
 // Schlick's approximation (1994, eq. 15), with the cosine on the side of the lower index.
@@ -17,8 +23,7 @@ float fresnelSchlick(float eta, float cosI, float cosT) {
 
 // Squared cosine of the refracted direction (Snell); not above 0: total reflection.
 float refractedCosine2(float eta, float cosI) {
-    float e2 = eta * eta;
-    return (e2 - 1.0 + cosI * cosI) / e2;
+    return ((eta - 1.0) * (eta + 1.0) + cosI * cosI) / (eta * eta);
 }
 
 // Fraction of light that a dielectric reflects.

@@ -3,6 +3,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
 #include "scene/reader.h"
+#include "scene/text.h"
 #include "scene_text.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-json readJson(const fs::path& file) { return parseJson(file, readText(file)); }
+json readJson(const fs::path& file) { return parseJson(file, readText(file, mostSceneBytes, "")); }
 
 /// Whether the shipped schema accepts a scene.
 bool schemaAccepts(const json& scene) {
@@ -135,9 +136,9 @@ TEST(SceneErrors, NameTheLineOfAMesh) {
         {"two_coordinates", ".obj:1: found \"\""},
         {"normal_out_of_range", ".obj:5: a face refers to normal 2; the file has 1"},
         {"two_corners", ".obj:3: a face of 2 corners"},
-        {"no_faces", ".obj: the mesh has no faces"},
-        {"empty", ".obj: the mesh has no faces"},
-        {"not_an_obj", ".obj: the mesh has no faces"},
+        {"no_faces", ".obj:3: the mesh has no faces"},
+        {"empty", ".obj:1: the mesh has no faces"},
+        {"not_an_obj", ".obj:1: found a byte 0"},
         {"no_area", "scene.json: /shapes/0/file: no triangle of the mesh has an area"},
     };
     for (const auto& [name, message] : meshes) {

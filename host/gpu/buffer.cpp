@@ -23,11 +23,23 @@ struct Allocation {
     vk::raii::DeviceMemory memory{nullptr};
 };
 
+static std::uint64_t usedBytes(const Gpu& gpu) {
+    std::uint64_t total = 0;
+    for (const auto& [_, used] : gpu.memory) total += used;
+    return total;
+}
+
+[[noreturn]] static void refuse(const Gpu& gpu, const std::string& name, std::uint64_t bytes, const std::string& cause) {
+    throw OutOfMemory(fmt::format("allocating {:.1f} MiB of device memory for '{}', beside {:.1f} MiB in use, failed: {}", double(bytes) / 1048576, name,
+                                  double(usedBytes(gpu)) / 1048576, cause));
+}
+
 static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::MemoryPropertyFlags wanted) {
     const auto& device = gpu.handles->device;
+    if (usedBytes(gpu) + bytes > gpu.handles->freeBytes)
+        refuse(gpu, name, bytes, fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576));
     Allocation result;
-    attempt(fmt::format("allocating {:.1f} MiB of device memory for '{}'", double(bytes) / 1048576, name),
-            "ask for fewer photons or a smaller image", [&] {
+    try {
         result.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo{
             .size = bytes,
             .usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst});
@@ -38,7 +50,9 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
         result.memory = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{
             .pNext = &flags, .allocationSize = needs.size, .memoryTypeIndex = static_cast<std::uint32_t>(type)});
         result.buffer.bindMemory(*result.memory, 0);
-    });
+    } catch (const vk::SystemError& error) {
+        refuse(gpu, name, bytes, error.what());
+    }
     return result;
 }
 
@@ -51,11 +65,9 @@ RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size, std::uint64
     Allocation allocation = allocate(gpu, name, bytes + slack, wanted);
     handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory), std::move(allocation.buffer), nullptr, bytes);
     address = gpu.handles->device.getBufferAddress({.buffer = *handles->buffer});
-    if (maps) handles->mapped = handles->memory.mapMemory(0, VK_WHOLE_SIZE);
+    if (maps) handles->mapped = attempt("mapping device memory for '" + handles->name + "'", "", [&] { return handles->memory.mapMemory(0, VK_WHOLE_SIZE); });
     gpu.memory[handles->name] += bytes;
-    std::uint64_t total = 0;
-    for (const auto& [_, used] : gpu.memory) total += used;
-    gpu.peakBytes = std::max(gpu.peakBytes, total);
+    gpu.peakBytes = std::max(gpu.peakBytes, usedBytes(gpu));
 }
 
 RawBuffer::Handles::~Handles() {

@@ -14,4 +14,9 @@ struct GpuError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The device has no memory for a buffer.
+struct OutOfMemory : GpuError {
+    using GpuError::GpuError;
+};
+
 } // namespace vkpm

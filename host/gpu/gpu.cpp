@@ -132,6 +132,28 @@ static vk::raii::Device createDevice(const vk::raii::PhysicalDevice& physical, s
     return attempt("vkCreateDevice", installHint, [&] { return vk::raii::Device(physical, create); });
 }
 
+static bool hasExtension(const vk::raii::PhysicalDevice& device, std::string_view name) {
+    const auto extensions = device.enumerateDeviceExtensionProperties();
+    return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName.data(); });
+}
+
+// Bytes of the largest device-local heap that nobody uses yet, as far as the driver tells. Drivers for the processor grant any
+// allocation; memory that is not there would end the program when it is first written to.
+static std::uint64_t freeBytes(const vk::raii::PhysicalDevice& device) {
+    const bool tells = hasExtension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    const auto chain = device.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    const auto& memory = chain.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
+    const auto& budget = chain.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    std::uint64_t most = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++) {
+        if (!(memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)) continue;
+        const std::uint64_t granted = tells ? budget.heapBudget[i] : memory.memoryHeaps[i].size;
+        const std::uint64_t used = tells ? budget.heapUsage[i] : 0;
+        most = std::max(most, granted - std::min(granted, used));
+    }
+    return most;
+}
+
 const std::uint32_t stampCount = 8192;
 
 static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
@@ -156,6 +178,7 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     if (vk->physical.getQueueFamilyProperties()[vk->family].timestampValidBits > 0)
         vk->nanosecondsPerTick = properties.limits.timestampPeriod;
     vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
+    vk->freeBytes = freeBytes(vk->physical);
     vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu;
     return vk;
 }

@@ -19,6 +19,7 @@ struct Gpu::Handles {
     std::uint32_t family = 0;
     float nanosecondsPerTick = 0;
     bool mapsDeviceMemory = false; // the host can write device memory directly
+    std::uint64_t freeBytes = 0; // of device memory when the device was opened
     DeviceInfo info;
     std::map<std::string, std::weak_ptr<const RawKernel::Handles>> kernels; // by name and features
 

@@ -1,12 +1,8 @@
 /// Parsing of JSON text with the place of every mistake, refusing what nlohmann's tree would silently accept.
 #include "scene/reader.h"
-#include "scene/scene.h"
+#include "scene/text.h"
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 namespace vkpm {
 using nlohmann::json;
@@ -53,8 +49,7 @@ public:
         const std::string before = text.substr(0, position == 0 ? 0 : position - 1);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
-        throw InputError(fmt::format("{}:{}:{}: {}; the file must be JSON (RFC 8259)", file.string(), line,
-                                     before.size() - lineStart + 1, message));
+        refuseFile(file, fmt::format(":{}:{}", line, before.size() - lineStart + 1), message, "the file must be JSON (RFC 8259)");
     }
 
 private:
@@ -88,7 +83,7 @@ private:
             if (containers[i]->is_object()) pointer /= keys[i];
             else pointer /= i + 1 < containers.size() ? size - 1 : size;
         }
-        throw InputError(fmt::format("{}: {}: {}; {}", file.string(), pointer.to_string(), found, allowed));
+        refuseFile(file, ": " + pointer.to_string(), found, allowed);
     }
 
     const fs::path& file;
@@ -98,26 +93,6 @@ private:
 };
 
 } // namespace
-
-std::string fileProblem(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) return "the file does not exist";
-    if (fs::is_directory(status)) return "this is a folder, not a file";
-    errno = 0;
-    if (!std::ifstream{file}) return fmt::format("the file cannot be opened ({})", std::strerror(errno));
-    return "";
-}
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream{file, std::ios::binary};
-    std::ostringstream contents;
-    contents << stream.rdbuf();
-    if (stream.bad()) throw std::runtime_error(fmt::format("{}: reading failed", file.string()));
-    std::string text = std::move(contents).str();
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    return text;
-}
 
 json parseJson(const fs::path& file, const std::string& text) {
     TreeBuilder builder{file, text};

@@ -1,7 +1,7 @@
 /// Area lights: flux and probabilities.
 #include "scene/lights.h"
+#include "scene/text.h"
 #include <cmath>
-#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 namespace vkpm {
@@ -14,15 +14,15 @@ dvec3 lightFlux(const Light& light) {
     return sides * glm::pi<double>() * double{light.area} * dvec3{light.radiance};
 }
 
-void chooseLights(Scene& scene, const std::string& file) {
+void chooseLights(Scene& scene, const std::filesystem::path& file) {
     dvec3 flux{0};
     for (const Light& light : scene.lights) flux += lightFlux(light);
     scene.flux = vec3{flux};
     const double total = luminance(flux);
     if (scene.lights.empty() || scene.flux == vec3{0})
-        throw InputError(fmt::format("{}: /shapes: there is no light; give a shape an \"emission\" above 0", file));
+        refuseFile(file, ": /shapes", "there is no light", "give a shape an \"emission\" above 0");
     if (!std::isfinite(scene.flux.x + scene.flux.y + scene.flux.z))
-        throw InputError(fmt::format("{}: /shapes: the flux of all lights overflows; lower \"emission\"", file));
+        refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
     double sum = 0;
     float low = 0;

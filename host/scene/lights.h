@@ -13,6 +13,6 @@ glm::dvec3 lightFlux(const Light& light);
 /// Fills `flux`, `lightCdf` and the lights' probabilities. The probability of a light is the difference of its two
 /// entries of the CDF, in proportion to its luminance but for their rounding. Throws InputError, naming `file`, if
 /// no light emits or the flux is beyond the range of float.
-void chooseLights(Scene& scene, const std::string& file);
+void chooseLights(Scene& scene, const std::filesystem::path& file);
 
 } // namespace vkpm

@@ -5,6 +5,7 @@
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
+#include "scene/text.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -106,14 +107,13 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
 }
 
 /// Areas and squared distances must not leave the range of float on the device.
-void checkExtent(const Scene& scene, const std::string& file) {
+void checkExtent(const Scene& scene, const std::filesystem::path& file) {
     const dvec3 sides = dvec3{scene.bounds.high} - dvec3{scene.bounds.low};
     const double extent = std::max({sides.x, sides.y, sides.z});
     const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
     if (!(extent >= 1e-9 && std::max({reach.x, reach.y, reach.z}) <= 1e12f))
-        throw InputError(fmt::format("{}: /shapes: the shapes extend over {:.3g} and reach as far as {:.3g} from the "
-                                     "world's origin; allowed are at least 1e-9 and at most 1e12",
-                                     file, extent, std::max({reach.x, reach.y, reach.z})));
+        refuseFile(file, ": /shapes", fmt::format("the shapes extend over {:.3g} and reach as far as {:.3g} from the world's origin", extent, std::max({reach.x, reach.y, reach.z})),
+                   "allowed are at least 1e-9 and at most 1e12");
 }
 
 void readScene(Reader root, Scene& scene) {
@@ -133,13 +133,13 @@ void readScene(Reader root, Scene& scene) {
     if (materials) indices = readMaterials(*materials, scene);
 
     ShapeLoader loader{scene, indices};
-    const std::vector<Reader> all = shapes.elements(1, manyShapes, "an array of shapes, at least one");
+    const std::size_t count = shapes.count(1, manyShapes, "an array of shapes, at least one");
     std::vector<dvec3> places{Reader{camera}.at("origin").place(), Reader{camera}.at("target").place()};
-    for (const Reader& shape : all)
-        if (const auto place = loader.somePlace(shape)) places.push_back(*place);
+    for (std::size_t i = 0; i < count; ++i)
+        if (const auto place = loader.somePlace(shapes.element(i))) places.push_back(*place);
     scene.origin = chooseOrigin(places);
     scene.view = readView(camera, scene.origin);
-    for (const Reader& shape : all) loader.add(shape);
+    for (std::size_t i = 0; i < count; ++i) loader.add(shapes.element(i));
     loader.finish();
 }
 
@@ -147,18 +147,17 @@ void readScene(Reader root, Scene& scene) {
 
 Scene loadScene(const std::filesystem::path& file) {
     const std::string problem = fileProblem(file);
-    if (!problem.empty()) throw InputError(fmt::format("{}: {}; give a scene file", file.string(), problem));
+    if (!problem.empty()) throw InputError(fmt::format("{}: {}; give a scene file", printable(file.string(), 4096), problem));
     Scene scene;
     scene.name = file.stem().string();
-    scene.text = readText(file);
+    scene.text = readText(file, mostSceneBytes, "give a scene file; its meshes belong into OBJ files");
     if (scene.text.find_first_not_of(" \t\r\n") == std::string::npos)
-        throw InputError(fmt::format("{}:1:1: the file is empty; give a scene, {{\"camera\": ..., \"shapes\": ...}}",
-                                     file.string()));
+        refuseFile(file, ":1:1", "the file is empty", "give a scene, {\"camera\": ..., \"shapes\": ...}");
 
     const nlohmann::json json = parseJson(file, scene.text);
     readScene(Reader{file, json}, scene);
-    checkExtent(scene, file.string());
-    chooseLights(scene, file.string());
+    checkExtent(scene, file);
+    chooseLights(scene, file);
 
     Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
     scene.nodes = std::move(bvh.nodes);

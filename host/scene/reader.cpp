@@ -1,6 +1,6 @@
 /// A typed reader of JSON: types, ranges and unknown keys, each with its place.
 #include "scene/reader.h"
-#include "scene/scene.h"
+#include "scene/text.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,6 +11,9 @@ using nlohmann::json;
 
 namespace {
 
+/// For what is not ASCII the function of C is undefined.
+int toLower(char c) { return std::tolower(static_cast<unsigned char>(c)); }
+
 /// Levenshtein's distance: insertions, deletions and substitutions that turn one word into the other.
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -18,7 +21,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         std::size_t diagonal = row[0]++;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substituted = diagonal + (std::tolower(a[i]) != std::tolower(b[j]));
+            const std::size_t substituted = diagonal + (toLower(a[i]) != toLower(b[j]));
             diagonal = row[j + 1];
             row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
         }
@@ -42,14 +45,13 @@ std::string pointerStep(std::string_view key) {
     return step;
 }
 
-std::string shortened(std::string text) { return text.size() > 60 ? text.substr(0, 57) + "..." : text; }
-
 } // namespace
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
     std::string nearest;
     std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
+        if (candidate.size() > word.size() + least) continue;
         const std::size_t distance = editDistance(word.substr(0, 64), candidate);
         if (distance < least && distance < candidate.size()) {
             least = distance;
@@ -61,30 +63,31 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& c
 
 std::string quotedList(const std::vector<std::string>& words) {
     std::string list;
+    constexpr std::size_t most = 20;
     for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i == most) return list + fmt::format(" and {} more", words.size() - most);
         if (i > 0) list += i + 1 == words.size() ? " or " : ", ";
-        list += fmt::format("\"{}\"", words[i]);
+        list += fmt::format("\"{}\"", printable(words[i], 40));
     }
     return list;
 }
 
 void Reader::fail(std::string_view found, std::string_view allowed) const {
-    throw InputError(fmt::format("{}: {}: {}; {}", file.string(), pointer.empty() ? "/" : pointer, found, allowed));
+    refuseFile(*file, ": " + (pointer.empty() ? "/" : pointer), found, allowed);
 }
 
 void Reader::warn(std::vector<std::string>& warnings, std::string_view message) const {
-    warnings.push_back(fmt::format("{}: {}: {}", file.string(), pointer, message));
+    warnings.push_back(fmt::format("{}: {}: {}", printable(file->string()), printable(pointer), message));
 }
 
 std::string Reader::describe() const {
-    const std::string literal = shortened(value->dump(-1, ' ', false, json::error_handler_t::replace));
     if (value->is_object()) return "found an object";
     if (value->is_array()) return fmt::format("found an array of {}", value->size());
-    return fmt::format("found {}", literal);
+    return "found " + printable(value->dump(-1, ' ', false, json::error_handler_t::replace), 60);
 }
 
 Reader Reader::child(std::string_view key, const json& member) const {
-    Reader reader{file, member};
+    Reader reader{*file, member};
     reader.pointer = pointer + pointerStep(key);
     return reader;
 }
@@ -124,15 +127,20 @@ void Reader::failUnknown(std::string_view key) const {
     const std::string nearest = nearestWord(key, known);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
     child(key, *value)
-        .fail(fmt::format("unknown key \"{}\"", shortened(std::string{key})),
+        .fail(fmt::format("unknown key \"{}\"", printable(key, 60)),
               fmt::format("{}known here: {}", hint, quotedList(known)));
 }
 
-std::vector<Reader> Reader::elements(std::size_t low, std::size_t high, std::string_view allowed) const {
+std::size_t Reader::count(std::size_t low, std::size_t high, std::string_view allowed) const {
     if (!value->is_array() || value->size() < low || value->size() > high)
         fail(describe(), fmt::format("allowed is {}", allowed));
+    return value->size();
+}
+
+std::vector<Reader> Reader::elements(std::size_t low, std::size_t high, std::string_view allowed) const {
+    const std::size_t size = count(low, high, allowed);
     std::vector<Reader> readers;
-    for (std::size_t i = 0; i < value->size(); ++i) readers.push_back(child(std::to_string(i), (*value)[i]));
+    for (std::size_t i = 0; i < size; ++i) readers.push_back(element(i));
     return readers;
 }
 

@@ -22,20 +22,14 @@ constexpr Range positive{0, std::numeric_limits<float>::max(), true};
 constexpr Range notNegative{0, std::numeric_limits<float>::max()};
 constexpr Range fraction{0, 1};
 
-/// Why a file cannot be read as text; empty if it can.
-std::string fileProblem(const std::filesystem::path& file);
-
-/// The contents of a file without byte order mark. Throws std::runtime_error if reading fails.
-std::string readText(const std::filesystem::path& file);
-
 /// The JSON value of a text. Throws InputError with file:line:column for syntax, and with a JSON pointer for repeated
 /// keys and for nesting beyond 64 levels.
 nlohmann::json parseJson(const std::filesystem::path& file, const std::string& text);
 
-/// A place in a JSON value. Every function that reads throws InputError, "file: /json/pointer: found; allowed".
+/// A place in a JSON value; both the value and the path must outlive it. Every function that reads throws InputError, "file: /json/pointer: found; allowed".
 class Reader {
 public:
-    Reader(std::filesystem::path path, const nlohmann::json& root) : file{std::move(path)}, value{&root} {}
+    Reader(const std::filesystem::path& path, const nlohmann::json& root) : file{&path}, value{&root} {}
 
     [[noreturn]] void fail(std::string_view found, std::string_view allowed) const;
     void warn(std::vector<std::string>& warnings, std::string_view message) const;
@@ -47,7 +41,9 @@ public:
     /// Fails at the first key that was never asked for.
     void finish() const;
 
-    /// Elements of an array of `low` to `high` elements.
+    /// Elements of an array of `low` to `high` elements: how many, one of them, all at once.
+    std::size_t count(std::size_t low, std::size_t high, std::string_view allowed) const;
+    Reader element(std::size_t index) const { return child(std::to_string(index), (*value)[index]); }
     std::vector<Reader> elements(std::size_t low, std::size_t high, std::string_view allowed) const;
 
     float number(Range range = anyNumber) const;
@@ -62,14 +58,14 @@ public:
     bool isNumber() const { return value->is_number(); }
 
     std::string describe() const; // the value found, in words
-    const std::filesystem::path& path() const { return file; }
+    const std::filesystem::path& path() const { return *file; }
 
 private:
     Reader child(std::string_view key, const nlohmann::json& member) const;
     const nlohmann::json& object() const;
     [[noreturn]] void failUnknown(std::string_view key) const;
 
-    std::filesystem::path file;
+    const std::filesystem::path* file;
     const nlohmann::json* value;
     std::string pointer;
     std::vector<std::string> known;
@@ -78,7 +74,7 @@ private:
 /// The candidate that is nearest to a misspelt word by edit distance; empty if none is near.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
 
-/// `"a", "b" or "c"`, for messages.
+/// `"a", "b" or "c"`, for messages; of many words the first 20.
 std::string quotedList(const std::vector<std::string>& words);
 
 } // namespace vkpm

@@ -2,6 +2,7 @@
 #include "scene/shapes.h"
 #include "scene/bounding_sphere.h"
 #include "scene/box.h"
+#include "scene/text.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,6 +12,8 @@ namespace vkpm {
 using glm::dvec3;
 
 namespace {
+
+constexpr std::size_t mostPrimitives = LEAF_FIRST / 2; // spatial splits double them at most
 
 Transform readTransform(Reader& shape) {
     const auto steps = shape.find("transform");
@@ -89,7 +92,7 @@ uint ShapeLoader::readMaterial(Reader& shape, bool emits) {
     for (const auto& [known, index] : materials) names.push_back(known);
     const std::string nearest = nearestWord(name, names);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
-    reader->fail(fmt::format("unknown material \"{}\"", name),
+    reader->fail(fmt::format("unknown material \"{}\"", printable(name, 60)),
                  names.empty() ? "the scene has no \"materials\""
                                : fmt::format("{}known: {}", hint, quotedList(names)));
 }
@@ -123,6 +126,7 @@ void ShapeLoader::addSphere(Reader& shape) {
     if (!(b.x > 0)) shape.fail("the transform shrinks the sphere to radius 0", "let it keep a radius > 0");
     const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
     extendBounds(shape, a - b.x, a + b.x);
+    requireRoom(shape);
     spheres.push_back({a, b, poleOf(transform.point(center) - scene.origin, scaled), surface.material, light, NONE});
     if (isSpecular(surface)) scene.targets.push_back({a, b.x});
 }
@@ -156,7 +160,7 @@ const Mesh& ShapeLoader::meshOf(Reader& shape) {
     const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
     const auto known = meshes.find({file, smoothness});
     if (known != meshes.end()) return known->second;
-    if (const std::string problem = fileProblem(file); !problem.empty())
+    if (const std::string problem = fileProblem(file, true); !problem.empty())
         fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
     return meshes.emplace(std::pair{file, smoothness}, loadMesh(file, smoothness)).first->second;
 }
@@ -204,6 +208,11 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangl
     addFlat(shape, primitive);
 }
 
+void ShapeLoader::requireRoom(const Reader& shape) const {
+    if (scene.primitives.size() + spheres.size() >= mostPrimitives)
+        shape.fail("the scene has too many primitives", fmt::format("allowed are {}", mostPrimitives));
+}
+
 /// Of the device: relative to the scene's origin, rounded once.
 vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const { return vec3{transform.point(point) - scene.origin}; }
 
@@ -215,6 +224,7 @@ void ShapeLoader::extendBounds(const Reader& shape, vec3 low, vec3 high) {
 }
 
 void ShapeLoader::addFlat(const Reader& shape, const Primitive& triangle) {
+    requireRoom(shape);
     const auto [a, b, c] = std::array{triangle.a, triangle.b, triangle.c};
     extendBounds(shape, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
     scene.primitives.push_back(triangle);

@@ -39,6 +39,7 @@ private:
     void addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
                      const Surface& surface);
 
+    void requireRoom(const Reader& shape) const;
     vec3 place(const Transform& transform, glm::dvec3 point) const;
     void extendBounds(const Reader& shape, vec3 low, vec3 high);
     void addFlat(const Reader& shape, const Primitive& triangle);

@@ -1,0 +1,152 @@
+/// Reading of OBJ text, line by line.
+#include "scene/obj.h"
+#include "scene/text.h"
+#include "scene/triangulate.h"
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace vkpm {
+
+namespace {
+
+constexpr std::size_t mostCorners = 1000; // of a face
+
+/// Takes the next word off a line; empty at its end and before a comment.
+std::string_view takeWord(std::string_view& line) {
+    const std::size_t start = std::min(line.find_first_not_of(" \t"), line.size());
+    const std::size_t end = std::min(line.find_first_of(" \t", start), line.size());
+    const std::string_view word = line.substr(start, end - start);
+    line.remove_prefix(end);
+    return word.starts_with('#') ? "" : word;
+}
+
+/// Takes the next line off a text; lines end with a line feed, a carriage return or both.
+std::string_view takeLine(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    const bool both = text.substr(end).starts_with("\r\n");
+    text.remove_prefix(std::min(end + (both ? 2 : 1), text.size()));
+    return line;
+}
+
+std::string_view takeIndex(std::string_view& word) {
+    const std::size_t end = std::min(word.find('/'), word.size());
+    const std::string_view index = word.substr(0, end);
+    word.remove_prefix(std::min(end + 1, word.size()));
+    return index;
+}
+
+/// Reads one file; indices count from 1, or back from the latest element if negative.
+class ObjReader {
+public:
+    explicit ObjReader(const std::filesystem::path& path) : file{path} {}
+
+    Obj read(std::string_view text) {
+        while (!text.empty()) {
+            ++line;
+            readLine(takeLine(text));
+        }
+        if (faces.empty())
+            fail(std::max<std::size_t>(line, 1), "the mesh has no faces", "lines of the form \"f 1 2 3\" are needed");
+        for (const Face& face : faces) addTriangles(face);
+        return std::move(obj);
+    }
+
+private:
+    /// Corners up to `end`, after those of the face before; they may refer to what comes later in the file.
+    struct Face {
+        std::size_t end;
+        std::size_t line;
+    };
+
+    [[noreturn]] void fail(std::size_t where, std::string_view found, std::string_view allowed) const {
+        refuseFile(file, fmt::format(":{}", where), found, allowed);
+    }
+
+    void readLine(std::string_view rest) {
+        const std::string_view keyword = takeWord(rest);
+        if (keyword == "v") obj.vertices.push_back(readNumbers(rest));
+        else if (keyword == "vn") obj.normals.push_back(vec3{readNumbers(rest)});
+        else if (keyword == "f") readFace(rest);
+    }
+
+    glm::dvec3 readNumbers(std::string_view rest) const {
+        glm::dvec3 numbers;
+        for (int i = 0; i < 3; ++i) {
+            std::string_view word = takeWord(rest);
+            const std::string_view found = word;
+            if (word.starts_with('+')) word.remove_prefix(1);
+            double value = 0;
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+            const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1; // underflows to 0
+            if ((error != std::errc{} && !tiny) || end != word.data() + word.size() ||
+                !(std::abs(value) <= double{std::numeric_limits<float>::max()}))
+                fail(line, fmt::format("found \"{}\" as a coordinate", printable(found, 60)),
+                     "allowed are three finite numbers");
+            numbers[i] = value;
+        }
+        return numbers;
+    }
+
+    void readFace(std::string_view rest) {
+        const std::size_t first = corners.size();
+        for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
+            const std::string_view whole = word;
+            const uint vertex = readIndex(takeIndex(word), whole, obj.vertices.size());
+            takeIndex(word); // of texture coordinates, which are not used
+            const std::string_view normal = takeIndex(word);
+            corners.push_back({vertex, normal.empty() ? NONE : readIndex(normal, whole, obj.normals.size())});
+        }
+        const std::size_t count = corners.size() - first;
+        if (count < 3) fail(line, fmt::format("a face of {} corners", count), "a face needs at least 3");
+        if (count > mostCorners)
+            fail(line, fmt::format("a face of {} corners", count),
+                 fmt::format("allowed are {}; cut it into several", mostCorners));
+        faces.push_back({corners.size(), line});
+    }
+
+    uint readIndex(std::string_view digits, std::string_view corner, std::size_t count) const {
+        std::int32_t index = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+        if (error != std::errc{} || end != digits.data() + digits.size() || index == 0 ||
+            std::int64_t{index} < -static_cast<std::int64_t>(count))
+            fail(line,
+                 fmt::format("found \"{}\" as a corner of a face, after {} elements", printable(corner, 60), count),
+                 "allowed are vertex, vertex/texture, vertex//normal or vertex/texture/normal, counted from 1");
+        return index > 0 ? static_cast<uint>(index - 1) : static_cast<uint>(std::int64_t(count) + index);
+    }
+
+    void addTriangles(const Face& face) {
+        const std::span<const Obj::Corner> polygon = std::span{corners}.subspan(begin, face.end - begin);
+        begin = face.end;
+        points.clear();
+        for (const Obj::Corner corner : polygon) {
+            requireIndex(corner.vertex, obj.vertices.size(), "vertex", face);
+            if (corner.normal != NONE) requireIndex(corner.normal, obj.normals.size(), "normal", face);
+            points.push_back(obj.vertices[corner.vertex]);
+        }
+        for (const auto& [a, b, c] : triangulate(points)) obj.triangles.push_back({polygon[a], polygon[b], polygon[c]});
+    }
+
+    void requireIndex(uint index, std::size_t count, std::string_view kind, const Face& face) const {
+        if (index >= count)
+            fail(face.line, fmt::format("a face refers to {} {}", kind, std::uint64_t{index} + 1),
+                 fmt::format("the file has {}", count));
+    }
+
+    const std::filesystem::path& file;
+    std::size_t line = 0;
+    Obj obj;
+    std::vector<Obj::Corner> corners; // of all faces
+    std::vector<Face> faces;
+    std::size_t begin = 0;    // first corner of the face whose triangles are next
+    std::vector<glm::dvec3> points; // its corners
+};
+
+} // namespace
+
+Obj readObj(const std::filesystem::path& file, std::string_view text) { return ObjReader{file}.read(text); }
+
+} // namespace vkpm

@@ -1,0 +1,28 @@
+/// Text files, read within limits, and what is said of them: one printable line with file and place.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vkpm {
+
+const std::uint64_t mostSceneBytes = 64ull << 20; // of a scene file; a mesh has files of its own
+const std::uint64_t mostMeshBytes = 1ull << 30;
+
+/// Why a file cannot be read as text; empty if it can. Only a regular file is sure to have an end.
+std::string fileProblem(const std::filesystem::path& file, bool regular = false);
+
+/// The contents of a file without byte order mark. Throws InputError if there is more of it than `most` bytes, and
+/// std::runtime_error if reading fails.
+std::string readText(const std::filesystem::path& file, std::uint64_t most, std::string_view advice);
+
+/// Text as a terminal may show it: control characters and what is not UTF-8 as \xNN, the middle left out beyond `most`
+/// bytes.
+std::string printable(std::string_view text, std::size_t most = 300);
+
+/// Throws InputError, "file<place>: found; allowed"; the place is ":line", ":line:column" or ": /json/pointer".
+[[noreturn]] void refuseFile(const std::filesystem::path& file, std::string_view place, std::string_view found,
+                             std::string_view allowed);
+
+} // namespace vkpm
