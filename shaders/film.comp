@@ -20,10 +20,7 @@ void main() {
     if (slot >= args.count) return;
     uint pixel = args.firstPixel + slot;
     blacken(slot);
-    if (hasNoise != 0u) {
-        precise vec3 apart = beautyOf(args.sums, args.pixels, pixel) * args.weights.perPass - beautyOf(args.samples, args.stride, slot);
-        joinDeviations(args.sums, args.pixels, pixel, apart, vec3(0.0), args.weights);
-    }
+    if (hasNoise != 0u) joinBeauty(args.sums, args.pixels, pixel, args.samples, args.stride, slot, vec3(0.0), vec3(0.0), args.weights);
     if (hasBias != 0u) {
         precise float bias = luminance(loadColumns(args.samples, args.stride, COLUMN_BIAS, slot));
         precise float square = bias * bias;

@@ -227,8 +227,8 @@ const uint LAYER_COUNT = 5u;
 // does without has no column. One pass gives a pixel its radiance by layer and what it knows of the first surface seen:
 // albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface), and an estimate of the
 // bias of beauty. Sums over a run of
-// passes have the squared deviations of beauty between batches of passes as well, see pixel_sum.glsl, and the square of the
-// luminance of the bias.
+// passes have the squared deviations of beauty between batches of passes as well, what rounding took from the sums of the layers,
+// see pixel_sum.glsl, and the square of the luminance of the bias.
 #define COLUMNS(X)                                                                                                     \
     X(COLUMN_EMISSION, 0u)                                                                                             \
     X(COLUMN_DIRECT, COLUMN_EMISSION + 3u * hasEmissionLayer)                                                          \
@@ -243,7 +243,8 @@ const uint LAYER_COUNT = 5u;
     X(SAMPLE_COLUMNS, COLUMN_BIAS + 3u * hasBias)                                                                      \
     X(COLUMN_FINE, SAMPLE_COLUMNS)                                                                                     \
     X(COLUMN_COARSE, COLUMN_FINE + 3u * hasNoise)                                                                      \
-    X(COLUMN_SQUARE, COLUMN_COARSE + 3u * hasNoise)                                                                    \
+    X(COLUMN_REST, COLUMN_COARSE + 3u * hasNoise)                                                                      \
+    X(COLUMN_SQUARE, COLUMN_REST + 3u * hasNoise)                                                                      \
     X(SUM_COLUMNS, COLUMN_SQUARE + hasBias)
 
 #ifdef __cplusplus
@@ -627,7 +628,7 @@ struct GatherArgs {
 /// How the deviations of two adjacent runs of passes make those of both, see pixel_sum.glsl.
 struct JoinWeights {
     float perPass;      // 1 / passes of the first run, or 0 if it has none
-    float perOtherPass; // 1 / passes of the second
+    uint times;         // passes of the first over those of the second: a whole number
     float fine;
     float coarse;
     uint grows; // 1: the first run is a batch like the second, and both become one of the next size

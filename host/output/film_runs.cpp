@@ -22,7 +22,7 @@ constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
     {"normal.X", 6},   {"normal.Y", 6},   {"normal.Z", 6},   {"depth.Z", ASK_DEPTH},  {"covered.Y", ASK_DEPTH},
     {"bias.R", 9},     {"bias.G", 9},     {"bias.B", 9},
     {"fine.R", 8},     {"fine.G", 8},     {"fine.B", 8},     {"coarse.R", ASK_NOISE}, {"coarse.G", 8},   {"coarse.B", 8},
-    {"square.Y", 9},
+    {"rest.R", 8},     {"rest.G", 8},     {"rest.B", 8},     {"square.Y", 9},
 }};
 
 std::string channelName(std::size_t run, std::size_t index) { return fmt::format("state{}.{}", run, COLUMN_NAMES[index].name); }

@@ -52,7 +52,7 @@ struct Total {
 };
 
 void Total::add(const PixelSum& run, PassRange passes, uint batch) {
-    dvec3 beauty{0};
+    dvec3 beauty(run.rest);
     for (uint layer = 0; layer < LAYER_COUNT; layer++) {
         layers[layer] += dvec3(run.sum.layers[layer]);
         beauty += dvec3(run.sum.layers[layer]);

@@ -34,7 +34,7 @@ std::size_t mostRuns(uint passes) {
 JoinWeights joinWeights(PassRange a, PassRange b) {
     const float m = static_cast<float>(length(a)), n = static_cast<float>(length(b));
     const float batches = m / (m + n); // m n / (m + n), in batches of n passes
-    return {.perPass = m > 0 ? 1 / m : 0, .perOtherPass = 1 / n, .fine = n > 1 ? float(siblings) * batches : 0, .coarse = batches, .grows = length(a) == length(b)};
+    return {.perPass = m > 0 ? 1 / m : 0, .times = length(a) / length(b), .fine = n > 1 ? float(siblings) * batches : 0, .coarse = batches, .grows = length(a) == length(b)};
 }
 
 /// The greatest node of the tree that has no more passes.

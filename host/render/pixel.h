@@ -19,6 +19,7 @@ struct PixelSum {
     Sample sum;
     vec3 fine;
     vec3 coarse;
+    vec3 rest; // what roundings took from the layers' sums
     float square; // of the luminance of the bias
 };
 const std::size_t PIXEL_FLOATS = sizeof(PixelSum) / sizeof(float);
