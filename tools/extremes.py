@@ -5,6 +5,7 @@ photons that add up, and no more than three times the time of a tame sibling. Ea
 """
 
 import argparse
+import glob
 import html
 import json
 import shutil
@@ -31,8 +32,20 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="keeps the scenes and renders, and writes index.html and table.md")
     parser.add_argument("--only", default="", metavar="WORDS", help="cases whose group and name have these words")
     parser.add_argument("--heavy", action="store_true", help="also those that take gigabytes or minutes")
-    parser.add_argument("--device", default="", help="as for vkpm")
+    parser.add_argument("--driver", choices=("lanes4", "swiftshader"), help="on lavapipe with four lanes in place of eight, or on SwiftShader")
     return parser.parse_args()
+
+
+def environment(driver: str | None) -> dict[str, str]:
+    """The environment variables that choose a driver."""
+    if driver == "lanes4":
+        return {"LP_NATIVE_VECTOR_WIDTH": "128"}
+    if driver == "swiftshader":
+        found = sorted(glob.glob("/usr/lib*/chromium*/vk_swiftshader_icd.json"))
+        if not found:
+            sys.exit("tools/extremes: SwiftShader is not installed; tools/setup installs it (chromium-common)")
+        return {"VK_DRIVER_FILES": found[0], "VK_ICD_FILENAMES": found[0]}
+    return {}
 
 
 def ratio(verdict: Verdict) -> float:
@@ -101,7 +114,7 @@ def main() -> int:
     args = arguments()
     folder = args.output or Path(tempfile.mkdtemp(prefix="vkpm-extremes-"))
     folder.mkdir(parents=True, exist_ok=True)
-    lab = Lab(args.vkpm, folder.resolve(), args.device)
+    lab = Lab(args.vkpm, folder.resolve(), environment(args.driver))
     rows, failed = [], 0
     for case in CASES:
         if (case.heavy and not args.heavy) or args.only not in f"{case.group} {case.name}":

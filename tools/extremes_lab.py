@@ -3,6 +3,7 @@
 import copy
 import hashlib
 import json
+import os
 import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -84,10 +85,10 @@ class Verdict:
 class Lab:
     """Renders scenes, each once, in a folder."""
 
-    def __init__(self, vkpm: str, folder: Path, device: str):
-        self.vkpm = vkpm
+    def __init__(self, vkpm: str, folder: Path, environment: dict[str, str]):
+        self.vkpm = str(Path(vkpm).resolve())
         self.folder = folder
-        self.device = ["--device", device] if device else []
+        self.environment = os.environ | environment
         self.known: dict[str, Render] = {}
 
     def render(self, scene: Scene, *options: str) -> Render:
@@ -112,10 +113,10 @@ class Lab:
     def run(self, file: Path, words: list[str]) -> Render:
         """Runs the program on the scene beside a file."""
         command = [self.vkpm, "--scene", str(file.with_suffix(".scene.json")), "-o", str(file), "--quiet",
-                   "--stats", str(file.with_suffix(".json")), *self.device, *words]
+                   "--stats", str(file.with_suffix(".json")), *words]
         render = Render(file, command)
         try:
-            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False)
+            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False, env=self.environment)
         except subprocess.TimeoutExpired:
             render.problems = [f"hangs: no end after {HANG} s"]
             return render
@@ -126,7 +127,7 @@ class Lab:
     def time_again(self, render: Render) -> None:
         """Runs the same once more, and keeps the better time."""
         before = render.seconds
-        subprocess.run(render.command, capture_output=True, timeout=HANG, check=True)
+        subprocess.run(render.command, capture_output=True, timeout=HANG, check=True, env=self.environment)
         del render.stats
         render.stats["seconds"]["render"] = min(before, render.seconds)
 
@@ -270,7 +271,7 @@ def same_means(found: Render, expected: Render, tolerance: float, layers: tuple 
     return f"{percent(differences[worst])} ({worst})", abs(differences[worst]) <= tolerance
 
 
-def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "256",
+def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "128",
                  layers: tuple = ("beauty",)) -> Verdict:
     """The photon mapper's means against the path tracer's, as parts of the whole."""
     render = lab.render(scene, "--passes", "16")
