@@ -41,7 +41,7 @@ RenderJob::RenderJob(const Options& opts, const Scene& input, const Settings& se
       device(fmt::format("{}, {}", gpu.info().name, gpu.info().driver)), identity(identityOf(scene, settings)),
       passes(options.passRange.value_or(PassRange{0, settings.passes})) {
     openReport();
-    if ((options.seconds || options.targetError) && !options.passes && !options.passRange) passes.end = NONE;
+    if ((options.seconds || options.targetError || options.command == Command::View) && !options.passes && !options.passRange) passes.end = NONE;
 }
 
 void RenderJob::openReport() {

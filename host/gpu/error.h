@@ -14,4 +14,9 @@ struct GpuError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The device stopped working for good; another one may be opened.
+struct DeviceLost : GpuError {
+    using GpuError::GpuError;
+};
+
 } // namespace vkpm

@@ -23,7 +23,9 @@ template <class Call> auto attempt(const std::string& what, const std::string& h
     try {
         return call();
     } catch (const vk::SystemError& error) {
-        throw GpuError(what + " failed: " + error.what() + (help.empty() ? "" : "; " + help));
+        const std::string message = what + " failed: " + error.what() + (help.empty() ? "" : "; " + help);
+        if (error.code() == vk::Result::eErrorDeviceLost) throw DeviceLost(message);
+        throw GpuError(message);
     }
 }
 
