@@ -9,7 +9,7 @@ namespace vkpm {
 
 const double patience = 0.4;     // seconds to wait for the size of the film, that the window takes
 const uvec2 usualSize{512, 512}; // if that takes longer
-const uint leastHeight = 640;    // for the panel
+const uint leastHeight = 690;    // for the panel
 
 int view(const Options& options) {
     const auto start = Clock::now();

@@ -60,7 +60,9 @@ void showProgress(const PanelInput& input) {
     row("photons", fmt::format("{}/s", short_(double(s.photons) / seconds)));
     row("radius", radiusText(s.globalRadii, s.radiusFactor));
     row("of caustics", radiusText(s.causticRadii, s.radiusFactor));
-    row("film", fmt::format("{} x {}", s.settings.size.x, s.settings.size.y));
+    const bool draft = input.draftsPerSecond > 0 && input.picture;
+    const uvec2 size = draft ? input.picture->size : s.settings.size;
+    row("film", fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
     if (!input.about.empty()) note(input.about);
     if (!s.problem.empty()) note(s.problem, warning);
 }

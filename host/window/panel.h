@@ -10,7 +10,8 @@ namespace vkpm {
 struct PanelInput {
     const RenderState& state;
     const Picture* picture; // null before the first
-    const std::string& about; // of the window: the frames of drafts in a second, what was copied
+    double draftsPerSecond; // while the camera moves
+    const std::string& about; // what was done last
     float scale;
     ivec2 window;
 };

@@ -20,12 +20,22 @@ struct Axis {
 };
 
 Axis axisFor(double least, double most, float begin, float end) {
-    const double low = std::floor(std::log10(std::max(least, 1e-6)) * 2) / 2, high = std::ceil(std::log10(std::max(most, 1e-6)) * 2) / 2;
-    return {low, std::max(high, low + 0.5), begin, end};
+    const double low = std::log10(std::max(least, 1e-6) / 1.1), high = std::log10(std::max(most, 1e-6) * 1.1);
+    return {low, std::max(high, low + 0.3), begin, end};
 }
 
-template <class Draw> void forEachDecade(const Axis& axis, Draw draw) {
-    for (int decade = int(std::ceil(axis.low - 1e-9)); decade <= axis.high + 1e-9; decade++) draw(std::pow(10.0, decade));
+/// 1, 2 and 5 of each decade; the last argument says whether a label has room there.
+template <class Draw> void forEachTick(const Axis& axis, float room, Draw draw) {
+    float last = -INFINITY;
+    for (int decade = int(std::floor(axis.low)); decade <= axis.high; decade++)
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            const double value = digit * std::pow(10.0, decade);
+            const float at = axis.at(value);
+            if (at < std::min(axis.begin, axis.end) - 1 || at > std::max(axis.begin, axis.end) + 1) continue;
+            const bool fits = std::abs(at - last) >= room;
+            if (fits) last = at;
+            draw(value, fits);
+        }
 }
 
 std::string percent(double value) { return fmt::format("{:.3g} %", 100 * value); }
@@ -46,13 +56,13 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
         most = std::max(most, point.error.error);
     }
     const Axis x = axisFor(errors.front().seconds, errors.back().seconds, left, right), y = axisFor(least, most, bottom, top);
-    forEachDecade(x, [&](double seconds) {
+    forEachTick(x, 3.5f * font, [&](double seconds, bool fits) {
         draw.AddLine({x.at(seconds), top}, {x.at(seconds), bottom}, gridColor);
-        draw.AddText({std::min(x.at(seconds), right - 2.5f * font), bottom}, textColor, fmt::format("{} s", seconds).c_str());
+        if (fits) draw.AddText({std::min(x.at(seconds), right - 2.5f * font), bottom}, textColor, fmt::format("{} s", seconds).c_str());
     });
-    forEachDecade(y, [&](double error) {
+    forEachTick(y, 1.1f * font, [&](double error, bool fits) {
         draw.AddLine({left, y.at(error)}, {right, y.at(error)}, gridColor);
-        draw.AddText({corner.x, std::clamp(y.at(error) - font / 2, top, bottom - font)}, textColor, percent(error).c_str());
+        if (fits) draw.AddText({corner.x, std::clamp(y.at(error) - font / 2, top, bottom - font)}, textColor, percent(error).c_str());
     });
 
     draw.PushClipRect({left, top}, {right, bottom}, true);

@@ -5,7 +5,7 @@
 
 namespace vkpm {
 
-const std::uint64_t patience = 50'000'000; // nanoseconds that a frame may wait for the display
+const std::uint64_t patience = 20'000'000; // nanoseconds that a frame may wait for the display
 const vk::ImageSubresourceRange allOfIt{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
 const vk::ImageSubresourceLayers color{vk::ImageAspectFlagBits::eColor, 0, 0, 1};
 

@@ -6,8 +6,16 @@
 #include "scene/settings_json.h"
 #include "window/camera_json.h"
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace vkpm {
+
+/// Lets the window's thread go first where there are few processors. Threads that this one starts, such as those of a driver for
+/// processors, do the same.
+static void giveWay() {
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 5);
+}
 
 RenderThread::RenderThread(const Options& asked, EventLog& events, std::function<void()> call) : wake(std::move(call)), log(events) {
     wanted.options = asked;
@@ -58,6 +66,7 @@ bool RenderThread::close() {
 }
 
 void RenderThread::run() {
+    giveWay();
     try {
         while (step()) continue;
         if (job && !broken && !wishes().discard) savedAtEnd = job->finish();
@@ -89,6 +98,7 @@ bool RenderThread::step() {
         if (!load(wish)) return true;
         if (halted) return hasWork = false, true;
         if (!gpu) openDevice();
+        if (!draft) return drawDraft(wish), true; // something to look at before the first pass
         if (!follow(wish)) return true;
         if (saved != wish.saves && job->passCount() > 0) save(wish.saves);
         if (!job->done() && (!wish.paused || job->passCount() == 0)) advance();
@@ -104,7 +114,7 @@ bool RenderThread::step() {
     return true;
 }
 
-/// Shows what there is, not after each pass if passes are quick; then prepares for drafts.
+/// Shows what there is, not after each pass if passes are quick.
 void RenderThread::tell(const Wishes& wish) {
     const uint passes = job->passCount();
     const bool last = passes > 0 && (wish.paused || job->done());
@@ -113,10 +123,6 @@ void RenderThread::tell(const Wishes& wish) {
     if (passes > 0 && due && (last || passes == 1 || secondsSince(publication) > std::max(0.25, 4 * publishing))) publish();
     report(!last ? "rendering" : wish.paused ? "paused" : "done");
     hasWork = !last;
-    if (draft || passes == 0) return;
-    const auto before = Clock::now();
-    draft.emplace(*gpu, *scene, settings);
-    job->leaveOut(secondsSince(before));
 }
 
 /// Has a scene, if need be the newest that its file has; false if it is broken, and was told so.
@@ -129,7 +135,6 @@ bool RenderThread::load(const Wishes& wish) {
         for (const std::string& warning : next.warnings) fmt::print(stderr, "vkpm: warning: {}\n", warning);
         options = wish.options;
         settings = options.override(next.settings);
-        if (!first && next.view != loadedView) view.reset();
         loadedText = next.text;
         loadedView = next.view;
         scene = std::move(next);
@@ -190,20 +195,27 @@ bool RenderThread::follow(const Wishes& wish) {
     }();
     const bool resized = next.size != settings.size;
     const bool looks = wish.view != view;
-    if (wish.moving && job && sameButSize) return drawDraft(wish), false;
+    if (!sameButSize) return startOver(wish), false;
+    if (wish.moving) return drawDraft(wish), false;
 
     options = wish.options;
     settings = next;
     if (looks || !job) takeView(wish);
-    if (!job || !sameButSize) {
-        job.reset();
-        construct();
-        draft.reset();
-    } else if (looks || resized || broken) {
+    if (!job) construct();
+    else if (looks || resized || broken) {
         job->restart();
         beginAnew();
     }
     return true;
+}
+
+/// Other settings: all is made anew.
+void RenderThread::startOver(const Wishes& wish) {
+    job.reset();
+    draft.reset();
+    options = wish.options;
+    settings = options.override(scene->settings);
+    hasWork = true;
 }
 
 /// The scene's text takes the camera, so that a file says what it is a picture of.
@@ -215,8 +227,9 @@ void RenderThread::takeView(const Wishes& wish) {
 
 void RenderThread::drawDraft(const Wishes& wish) {
     const View seen = wish.view.value_or(loadedView);
-    hasWork = false;
-    if (latest && latest->draft && latest->view == seen) return;
+    hasWork = !wish.moving;
+    if (draft && latest && latest->draft && latest->view == seen) return;
+    const auto before = Clock::now();
     if (!draft) draft.emplace(*gpu, *scene, settings);
     const auto shown = std::make_shared<Picture>(draft->render(seen, settings.size));
     {
@@ -224,7 +237,8 @@ void RenderThread::drawDraft(const Wishes& wish) {
         latest = shown;
     }
     published = 0;
-    report("moving");
+    if (job) job->leaveOut(secondsSince(before));
+    report(wish.moving ? "moving" : "preparing");
 }
 
 /// From now on a wish may end what the device is doing, unless there is a new one already: then false.

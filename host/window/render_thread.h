@@ -54,6 +54,7 @@ private:
     void beginAnew();
     void tell(const Wishes& wish);
     bool follow(const Wishes& wish);
+    void startOver(const Wishes& wish);
     void takeView(const Wishes& wish);
     void drawDraft(const Wishes& wish);
     void advance();

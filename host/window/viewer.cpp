@@ -59,7 +59,7 @@ void Viewer::takeEvents() {
     controls.take(events, scenery, after);
     controls.fly(window, secondsSince(lastFrame), after);
     choices.looksAbout = controls.looksAbout;
-    if (!(after == before) && shown) {
+    if (!(after == before) && picture) {
         view = after;
         lastMove = Clock::now();
     }
@@ -155,18 +155,20 @@ void Viewer::watch() {
 }
 
 void Viewer::takePicture() {
-    state = thread.state();
+    const View sceneView = std::exchange(state, thread.state()).sceneView;
+    if (!(sceneView == state.sceneView) && picture) act(Action::reset); // the file has another camera now
     const auto latest = thread.picture();
-    if (!latest || (latest == picture && developed == choices.tone)) return;
-    if (latest != picture && latest->draft) {
-        motionFrames++;
-        about = fmt::format("draft of {} x {}, {:.0f} in a second", latest->size.x, latest->size.y, motionFrames / std::max(secondsSince(motionStart), 0.01));
+    if (latest && !asked) choices.tone.exposure = state.settings.exposure;
+    if (latest && (latest != asked || askedTone != choices.tone)) {
+        asked = latest;
+        askedTone = choices.tone;
+        developer.ask(asked, *askedTone);
     }
-    if (latest != picture && !latest->draft && picture && picture->draft) about.clear();
-    picture = latest;
-    if (!shown && !commandLine.quiet) choices.tone.exposure = state.settings.exposure;
-    developed = choices.tone;
-    window.setPicture(picture->size, vkpm::develop(picture->pixels, *developed));
+    std::optional<Print> print = developer.take();
+    if (!print) return;
+    if (print->picture != picture && print->picture->draft) motionFrames++;
+    picture = print->picture;
+    window.setPicture(picture->size, std::move(print->rgba8));
 }
 
 /// The picture beside the panel, as large as there is room, in the middle; of its own size if that is the room but for a bit.
@@ -185,17 +187,24 @@ void Viewer::draw() {
     lastFrame = Clock::now();
     const Rectangle where = place();
     const Tone before = choices.tone;
-    window.draw(where, [&] {
+    const bool drawn = window.draw(where, [&] {
         if (choices.photons && picture) drawPhotons(*picture, where, window.scale());
-        if (panel) drawPanel({state, picture.get(), about, window.scale(), ivec2(window.size())}, choices);
+        if (panel) drawPanel({state, picture.get(), draftsPerSecond(), about, window.scale(), ivec2(window.size())}, choices);
     });
+    if (!drawn) settling = std::max(settling, 1u);
     if (choices.tone != before || !choices.actions.empty()) settling = 2;
-    if (!shown && picture) {
-        shown = true;
-        log.write("first picture", {{"start", secondsSince(start)}});
-    }
+    logFirst();
     const std::string wanted = fmt::format("{} - vkpm: {} passes", commandLine.scene.filename().string(), state.passes);
     if (wanted != title) window.setTitle(title = wanted);
+}
+
+double Viewer::draftsPerSecond() const { return moving && motionFrames > 2 ? motionFrames / secondsSince(motionStart) : 0; }
+
+/// What was seen first, and when.
+void Viewer::logFirst() {
+    if (!picture || passSeen || (drafted && picture->draft)) return;
+    (picture->draft ? drafted : passSeen) = true;
+    log.write(picture->draft ? "first draft" : "first pass", {{"start", secondsSince(start)}});
 }
 
 void Viewer::logOpening() {

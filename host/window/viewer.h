@@ -1,6 +1,7 @@
 /// The loop of the window: events to wishes, pictures to frames.
 #pragma once
 #include "output/event_log.h"
+#include "window/developer.h"
 #include "window/panel.h"
 #include "window/render_thread.h"
 #include "window/scene_watch.h"
@@ -26,11 +27,12 @@ private:
     void wishOptions();
     void watch();
     void takePicture();
-    void develop();
     void draw();
     void logOpening();
+    void logFirst();
     void endMotion();
     Rectangle place() const;
+    double draftsPerSecond() const;
     View viewNow() const { return view.value_or(state.sceneView); }
 
     Options commandLine;
@@ -43,8 +45,9 @@ private:
     PanelChoices choices;
     RenderState state;
     std::shared_ptr<const Picture> picture;
-    std::optional<Tone> developed; // of the picture
-    bool developedPhotons = false;
+    std::shared_ptr<const Picture> asked; // for a print
+    std::optional<Tone> askedTone;
+    Developer developer{Window::wake};
     std::optional<View> view;      // absent: the scene's
     bool panel = true;
     std::string about;
@@ -60,7 +63,7 @@ private:
     Clock::time_point lastResize{};
     uint settling = 0;             // frames to draw without an event, for ImGui to come to rest
     double longestWait = 0;        // seconds that an event may have waited
-    bool opened = false, shown = false;
+    bool opened = false, drafted = false, passSeen = false; // as the log has it
 };
 
 } // namespace vkpm

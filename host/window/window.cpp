@@ -96,6 +96,8 @@ void Window::openPresenter() {
     style.GrabRounding = 3;
     style.WindowBorderSize = 0;
     style.WindowPadding = {12, 10};
+    style.FramePadding = {6, 2};
+    style.ItemSpacing = {8, 5};
     style.Colors[ImGuiCol_WindowBg] = {0.13f, 0.13f, 0.145f, 1};
     style.Colors[ImGuiCol_Header] = {0.22f, 0.27f, 0.34f, 1};
     style.ScaleAllSizes(density);
@@ -159,18 +161,21 @@ void Window::setPicture(uvec2 size, std::vector<uint> rgba8) {
     presenter->setPicture(pictureSize, picture);
 }
 
-void Window::draw(const Rectangle& where, const std::function<void()>& interface) {
+bool Window::draw(const Rectangle& where, const std::function<void()>& interface) {
     presenter->beginFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     interface();
     ImGui::Render();
-    if (glfwGetWindowAttrib(window, GLFW_ICONIFIED)) return;
+    if (glfwGetWindowAttrib(window, GLFW_ICONIFIED)) return true;
     try {
-        if (presenter->draw(where)) losses = 0;
+        if (!presenter->draw(where)) return size().x == 0;
+        losses = 0;
+        return true;
     } catch (const vk::DeviceLostError& lost) {
         if (++losses > mostLosses) throw GpuError(fmt::format("drawing the window failed: {}; another program may have hung or reset the device", lost.what()));
         openPresenter();
+        return false;
     }
 }
 

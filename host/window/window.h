@@ -53,8 +53,9 @@ public:
     void copy(const std::string& text); // to the clipboard
     /// The picture of the next frames.
     void setPicture(uvec2 size, std::vector<uint> rgba8);
-    /// Draws a frame: the picture in a rectangle, and what `interface` makes with ImGui.
-    void draw(const Rectangle& where, const std::function<void()>& interface);
+    /// Draws a frame: the picture in a rectangle, and what `interface` makes with ImGui. False if it has to be drawn again, since the
+    /// display was not ready.
+    bool draw(const Rectangle& where, const std::function<void()>& interface);
 
 private:
     void listen();
