@@ -42,7 +42,7 @@ def eventually(what: str, look: Callable[[], Found], patience: float = PATIENCE)
 def display(density: int = 1) -> Iterator[dict[str, str]]:
     """The environment of a display of its own, on a number that is free."""
     read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp", "-noreset"]
     with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
         try:

@@ -111,6 +111,7 @@ void Controls::take(const std::vector<Event>& events, const Scenery& scenery, Vi
     for (const Event& event : events) {
         switch (event.kind) {
         case Event::Kind::key:
+            hold(event, scenery);
             if (!scenery.typing) key(event, view);
             break;
         case Event::Kind::button: press(event, scenery); break;
@@ -122,18 +123,26 @@ void Controls::take(const std::vector<Event>& events, const Scenery& scenery, Vi
     }
 }
 
-bool Controls::flying(const Window& window) const {
-    if (!window.focused() || window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL)) return false;
-    return std::ranges::any_of(flyKeys, [&](const FlyKey& fly) { return window.isDown(fly.key); });
+/// Keys that fly, until they are let go; those that are part of a shortcut do not.
+void Controls::hold(const Event& event, const Scenery& scenery) {
+    fast = event.modifiers & GLFW_MOD_SHIFT;
+    for (const FlyKey& fly : flyKeys) {
+        if (event.code != fly.key || event.action == GLFW_REPEAT) continue;
+        const bool begins = event.action == GLFW_PRESS && !(event.modifiers & GLFW_MOD_CONTROL) && !scenery.typing;
+        std::erase(held, event.code);
+        if (begins) held.push_back(event.code);
+    }
 }
 
-void Controls::fly(const Window& window, double seconds, View& view) {
-    if (!flying(window)) return;
+bool Controls::flying() const { return !held.empty(); }
+
+void Controls::release() { held.clear(); }
+
+void Controls::fly(double seconds, View& view) const {
     dvec3 direction{0};
     for (const FlyKey& fly : flyKeys)
-        if (window.isDown(fly.key)) direction += fly.direction;
-    const double speed = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT) ? 4 * flySpeed : flySpeed;
-    view = vkpm::fly(view, direction * speed * std::min(seconds, 0.1));
+        if (std::ranges::find(held, fly.key) != held.end()) direction += fly.direction;
+    if (direction != dvec3(0)) view = vkpm::fly(view, direction * ((fast ? 4 : 1) * flySpeed * std::min(seconds, 0.1)));
 }
 
 } // namespace vkpm

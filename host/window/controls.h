@@ -33,9 +33,11 @@ public:
     /// Takes the events; moves the view.
     void take(const std::vector<Event>& events, const Scenery& scenery, View& view);
     /// Flies by the keys that are held, for so many seconds.
-    void fly(const Window& window, double seconds, View& view);
+    void fly(double seconds, View& view) const;
     /// Whether a key that flies is held.
-    bool flying(const Window& window) const;
+    bool flying() const;
+    /// No key is held any more: the window has lost its keys to another.
+    void release();
 
     /// Since the last call: actions in their order, a layer that was chosen, places of the film that were double-clicked.
     std::vector<Action> actions() { return std::exchange(asked, {}); }
@@ -44,11 +46,14 @@ public:
     bool looksAbout = false; // dragging turns the head in place of orbiting
 
 private:
+    void hold(const Event& event, const Scenery& scenery);
     void press(const Event& event, const Scenery& scenery);
     void key(const Event& event, View& view);
     void drag(const Event& event, const Scenery& scenery, View& view);
 
     std::optional<int> dragging; // button
+    std::vector<int> held;       // keys that fly
+    bool fast = false;
     int modifiers = 0;
     dvec2 pointer{0};
     double lastPress = -1;

@@ -43,7 +43,7 @@ void Viewer::run() {
 /// Seconds that the loop may sleep.
 double Viewer::patience() const {
     if (settling > 0) return 0;
-    if (controls.flying(window)) return 0.01;
+    if (controls.flying()) return 0.01;
     return moving ? restSeconds / 3 : idleSeconds;
 }
 
@@ -57,7 +57,8 @@ void Viewer::takeEvents() {
     View after = before;
     controls.looksAbout = choices.looksAbout;
     controls.take(events, scenery, after);
-    controls.fly(window, secondsSince(lastFrame), after);
+    if (!window.focused()) controls.release();
+    controls.fly(secondsSince(lastFrame), after);
     choices.looksAbout = controls.looksAbout;
     if (!(after == before) && picture) {
         view = after;

@@ -131,8 +131,6 @@ void Window::wake() { glfwPostEmptyEvent(); }
 bool Window::closed() const { return glfwWindowShouldClose(window); }
 void Window::close() { glfwSetWindowShouldClose(window, GLFW_TRUE); }
 bool Window::focused() const { return glfwGetWindowAttrib(window, GLFW_FOCUSED); }
-bool Window::isDown(int key) const { return glfwGetKey(window, key) == GLFW_PRESS; }
-bool Window::buttonIsDown(int button) const { return glfwGetMouseButton(window, button) == GLFW_PRESS; }
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window, title.c_str()); }
 void Window::copy(const std::string& text) { glfwSetClipboardString(window, text.c_str()); }
 

@@ -42,8 +42,6 @@ public:
     bool closed() const;
     void close();
     bool focused() const;
-    bool isDown(int key) const;
-    bool buttonIsDown(int button) const;
     uvec2 size() const; // pixels
     dvec2 pointer() const;
     /// Pixels to a point of the interface: 1, or more on a dense display.
