@@ -135,8 +135,8 @@ void requirePhotonMap(const Options& options, uint integrator) {
 }
 
 void requireRender(Options& options) {
-    const char* const program = options.command == Command::View ? "vkpm view" : "vkpm";
-    if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in {} --scene FILE", program));
+    if (options.scene.empty())
+        throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.command == Command::View ? " view" : ""));
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
     const auto differ = [](const char* name, const std::optional<fs::path>& file, const char* otherName, const std::optional<fs::path>& other) {
         if (file && other && file->lexically_normal() == other->lexically_normal())
@@ -152,13 +152,10 @@ void requireRender(Options& options) {
     if (options.integrator) requirePhotonMap(options, *options.integrator);
 }
 
-const char* const WINDOW = R"(Renders pass by pass until --passes, --time or --target-error is reached, without
-these until the window is closed. Closing it saves --output with all finished
-passes, the file that vkpm --scene FILE --passes N writes.
-
-Keys and mouse are listed in the panel, which Tab hides and shows; among them:
-  1 ... 0  layers   drag, wheel  camera   C  copy the camera as JSON   Space  pause
-A window needs a display; without one the exit code is 1.)";
+const char* const WINDOW = R"(Renders until --passes, --time or --target-error, without these until the window is
+closed. Closing it saves --output with all finished passes, the file that
+vkpm --scene FILE --passes N writes. The panel lists keys and mouse; Tab hides it.
+Without a display the exit code is 1.)";
 
 /// Of render and of view, which differ in when they end.
 Options parseRender(std::span<const std::string> arguments, Command command) {
@@ -288,8 +285,7 @@ Options parseOptions(int count, const char* const* arguments) {
     std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
     if (words.empty()) words.push_back("--help");
     const std::span<const std::string> all(words);
-    if (all[0].starts_with('-')) return parseRender(all, Command::Render);
-    if (all[0] == "render") return parseRender(all.subspan(1), Command::Render);
+    if (all[0].starts_with('-') || all[0] == "render") return parseRender(all.subspan(all[0] == "render"), Command::Render);
     if (all[0] == "view") return parseRender(all.subspan(1), Command::View);
     if (all[0] == "plan") return parsePlan(all.subspan(1));
     if (all[0] == "compare") return parseCompare(all.subspan(1));

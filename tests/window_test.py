@@ -435,8 +435,10 @@ def main() -> None:
         resizes(environment, folder)
         pauses_by_mouse(environment, folder)
         shows_several_sizes(environment, folder)
-        waits = min(answers_during_long_passes(environment, folder) for _ in range(2))
-        assert waits < 0.1, waits
+        waits: list[float] = []  # other programs may hold one up
+        while len(waits) < 3 and not any(wait < 0.1 for wait in waits):
+            waits.append(answers_during_long_passes(environment, folder))
+        assert min(waits) < 0.1, waits
     return None
 
 

@@ -14,7 +14,7 @@ namespace vkpm {
 /// Lets the window's thread go first where there are few processors. Threads that this one starts, such as those of a driver for
 /// processors, do the same.
 static void giveWay() {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 5);
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
 }
 
 RenderThread::RenderThread(const Options& asked, EventLog& events, std::function<void()> call) : wake(std::move(call)), log(events) {
