@@ -62,11 +62,11 @@ TEST(Look, AnotherViewOrSizeIsAsIfNew) {
 // The flag comes up after another number of submissions each time, until all passes go through.
 TEST(Look, AfterCancelledItIsAsIfNew) {
     const Scene scene = shippedScene("box");
-    const Settings settings = settingsFor(scene, INTEGRATOR_PHOTON);
-    const Rendered expected = anew(scene, elsewhere(scene), settings, size);
     uint left = 0;
-    for (int microseconds = 300; microseconds < 60'000; microseconds = microseconds * 3 / 2) {
-        Renderer renderer(testGpu(), scene, settings);
+    for (int microseconds = 300, run = 0; microseconds < 60'000; microseconds = microseconds * 4 / 3, run++) {
+        const Settings settings = settingsFor(scene, run % 2 ? INTEGRATOR_LIGHT : INTEGRATOR_PHOTON);
+        const Rendered expected = anew(scene, elsewhere(scene), settings, size);
+        Renderer renderer(testGpu(), scene, settings, {.photons = 512, .camera = 300});
         renderer.renderPass(0);
         std::atomic<bool> cancel{false};
         testGpu().cancel = &cancel;

@@ -69,6 +69,7 @@ class Window:
         self.panel = self.events("window")[0]["panel"]
         search = ["search", "--all", "--pid", str(self.process.pid), "--name", "vkpm"]
         self.id = eventually("the window", lambda: self.xdotool(*search, check=False).split())[0]
+        self.await_event("first draft")
 
     def xdotool(self, *words: object, check: bool = True) -> str:
         """Runs xdotool on the display."""
@@ -392,7 +393,6 @@ def needs_a_display(folder: Path) -> None:
 def answers_during_long_passes(environment: dict[str, str], folder: Path) -> float:
     """Layers and camera while a pass takes long; returns the longest time that input waited, in seconds."""
     with window(environment, folder, ROOT / "scenes/pool.json", "--size", "640x480", "--photons", "1000000", "--gather-rays", "8") as shown:
-        shown.await_event("first draft")
         for _ in range(3):
             shown.key("3", "7", "1")
             shown.drag((300, 300), 10, (3, 1))
