@@ -69,7 +69,7 @@ void RenderThread::run() {
     giveWay();
     try {
         while (step()) continue;
-        if (job && !broken && !wishes().discard) savedAtEnd = job->finish();
+        if (job && !broken && !discards()) savedAtEnd = job->finish();
     } catch (...) {
         failure = std::current_exception();
     }
@@ -77,6 +77,11 @@ void RenderThread::run() {
     over = true;
     changed.notify_all();
     wake();
+}
+
+bool RenderThread::discards() const {
+    const std::lock_guard lock(mutex);
+    return wanted.discard;
 }
 
 /// The wishes as they are now, once there is anything to do.

@@ -47,6 +47,7 @@ public:
 private:
     void run();
     bool step();
+    bool discards() const;
     Wishes take();
     bool load(const Wishes& wish);
     void openDevice();
