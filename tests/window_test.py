@@ -22,7 +22,7 @@ from PIL import Image, ImageGrab
 ROOT = Path(__file__).resolve().parent.parent
 BOX = ROOT / "scenes/box.json"
 SMALL = ["--size", "160x120", "--photons", "3000", "--caustic-photons", "3000"]
-VKPM = sys.argv[1]
+VKPM = str(Path(sys.argv[1]).resolve())
 PATIENCE = 600 if os.environ.get("VKPM_VALIDATION") else 120  # seconds
 Found = TypeVar("Found")
 Box = tuple[int, int, int, int]
