@@ -177,6 +177,7 @@ void RenderThread::construct() {
     endLastPass();
     if (options.resume && !latest) job->resume();
     own.leftOut = job->statistics().leftOut;
+    if (std::exchange(failed, false)) own.problem.clear();
     job->begin();
     beginAnew();
 }

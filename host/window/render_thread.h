@@ -98,6 +98,7 @@ private:
     std::optional<RenderJob> job;
     std::optional<Draft> draft;
     bool broken = false;    // the job's film is of no use
+    bool failed = false;    // the problem is the device's
     bool halted = false;    // nothing to render until a wish changes
     bool hasWork = true;    // without a wish
     uint published = 0;     // passes in the latest picture

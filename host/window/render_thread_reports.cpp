@@ -50,8 +50,8 @@ void RenderThread::save(uint saves) {
         own.saved = fmt::format("{}, {} passes", options.output.string(), job->passCount());
         own.saves++;
         log.write("save", {{"file", options.output.string()}, {"passes", job->passCount()}});
-    } catch (const std::runtime_error& failed) {
-        own.saved = failed.what();
+    } catch (const std::runtime_error& cause) {
+        own.saved = cause.what();
     }
 }
 
@@ -89,6 +89,7 @@ void RenderThread::recover(const GpuError& error) {
     const bool lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
     if (lost) gpu.reset();
     if (lost && ++losses > 3) throw error;
+    failed = true;
     halted = !lost;
     hasWork = lost;
     own.activity = lost ? "preparing" : "stopped";
