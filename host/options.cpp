@@ -135,8 +135,7 @@ void requirePhotonMap(const Options& options, uint integrator) {
 }
 
 void requireRender(Options& options) {
-    if (options.scene.empty())
-        throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.command == Command::View ? " view" : ""));
+    if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.command == Command::View ? " view" : ""));
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
     const auto differ = [](const char* name, const std::optional<fs::path>& file, const char* otherName, const std::optional<fs::path>& other) {
         if (file && other && file->lexically_normal() == other->lexically_normal())
