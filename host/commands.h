@@ -5,6 +5,7 @@
 namespace vkpm {
 
 int render(const Options& options);
+int view(const Options& options);
 int plan(const Options& options);
 int compare(const Options& options);
 int merge(const Options& options);

@@ -21,6 +21,7 @@ static int run(const Options& options) {
     case Command::Compare: return compare(options);
     case Command::Merge: return merge(options);
     case Command::Render: return render(options);
+    case Command::View: return view(options);
     }
     return 0;
 }

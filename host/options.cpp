@@ -50,7 +50,7 @@ void addFiles(Parser& parser, Options& options) {
                [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
 }
 
-void addImage(Parser& parser, Options& options, const Settings& defaults) {
+void addImage(Parser& parser, Options& options, const Settings& defaults, const std::string& passes) {
     const auto count = [&](const std::string& name, const std::string& help, uint low, uint high, auto& target) {
         parser.add(name, "N", help,
                    [=, &target](auto& option, auto& text) { target = countOf(option, text, low, high); });
@@ -58,8 +58,7 @@ void addImage(Parser& parser, Options& options, const Settings& defaults) {
     parser.group("Image (overrides the scene file, which overrides the defaults)");
     parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y),
                [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
-    count("--passes", fmt::format("passes over the whole image (default {})", defaults.passes), 1, MAX_COUNT,
-          options.passes);
+    count("--passes", fmt::format("passes over the whole image (default {})", passes), 1, MAX_COUNT, options.passes);
     parser.add("--time", "SECONDS", "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
                [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
     parser.add("--target-error", "E", "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
@@ -107,6 +106,7 @@ void addPhotons(Parser& parser, Options& options, const Settings& defaults) {
 
 const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
   render                         render without a window; may be left out
+  view --scene FILE [options]    the same render in a window, progressively
   plan --scene FILE [--json]     say what a scene needs, what is left out and why, memory by buffer
   compare IMAGE REFERENCE [--json]
                                  error measures between two EXR files, layer by layer
@@ -135,7 +135,7 @@ void requirePhotonMap(const Options& options, uint integrator) {
 }
 
 void requireRender(Options& options) {
-    if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm --scene FILE");
+    if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.command == Command::View ? " view" : ""));
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
     const auto differ = [](const char* name, const std::optional<fs::path>& file, const char* otherName, const std::optional<fs::path>& other) {
         if (file && other && file->lexically_normal() == other->lexically_normal())
@@ -151,21 +151,29 @@ void requireRender(Options& options) {
     if (options.integrator) requirePhotonMap(options, *options.integrator);
 }
 
-Options parseRender(std::span<const std::string> arguments) {
+const char* const WINDOW = R"(Renders until --passes, --time or --target-error, without these until the window is
+closed. Closing it saves --output with all finished passes, the file that
+vkpm --scene FILE --passes N writes. The panel lists keys and mouse; Tab hides it.
+Without a display the exit code is 1.)";
+
+/// Of render and of view, which differ in when they end.
+Options parseRender(std::span<const std::string> arguments, Command command) {
     Options options;
-    Parser parser("vkpm, a photon mapping renderer in Vulkan compute.", "vkpm [render] --scene FILE [options]");
+    const bool window = command == Command::View;
+    Parser parser(window ? "Render a scene in a window, progressively." : "vkpm, a photon mapping renderer in Vulkan compute.",
+                  window ? "vkpm view --scene FILE [options]" : "vkpm [render] --scene FILE [options]");
     const Settings defaults;
     addFiles(parser, options);
-    addImage(parser, options, defaults);
+    addImage(parser, options, defaults, window ? "no end" : std::to_string(defaults.passes));
     addPhotons(parser, options, defaults);
     parser.group("Machine");
     addMachine(parser, options);
     parser.flag("--quiet", "no progress on stderr", options.quiet);
-    parser.footer(COMMANDS);
+    parser.footer(window ? WINDOW : COMMANDS);
     options.text = parser.parse(arguments);
     if (!options.text.empty()) return options;
+    options.command = command;
     requireRender(options);
-    options.command = Command::Render;
     return options;
 }
 
@@ -176,7 +184,7 @@ Options parsePlan(std::span<const std::string> arguments) {
                   "vkpm plan --scene FILE [options]");
     parser.add("--scene", "FILE", "scene (JSON); required", [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
     parser.flag("--json", "as JSON", options.json);
-    addImage(parser, options, defaults);
+    addImage(parser, options, defaults, std::to_string(defaults.passes));
     addPhotons(parser, options, defaults);
     parser.group("Machine");
     addMachine(parser, options);
@@ -276,17 +284,17 @@ Options parseOptions(int count, const char* const* arguments) {
     std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
     if (words.empty()) words.push_back("--help");
     const std::span<const std::string> all(words);
-    if (all[0].starts_with('-')) return parseRender(all);
-    if (all[0] == "render") return parseRender(all.subspan(1));
+    if (all[0].starts_with('-') || all[0] == "render") return parseRender(all.subspan(all[0] == "render"), Command::Render);
+    if (all[0] == "view") return parseRender(all.subspan(1), Command::View);
     if (all[0] == "plan") return parsePlan(all.subspan(1));
     if (all[0] == "compare") return parseCompare(all.subspan(1));
     if (all[0] == "merge") return parseMerge(all.subspan(1));
     if (all[0] == "devices") return parseDevices(all.subspan(1));
     if (all[0] == "bench") return parseBench(all.subspan(1));
     const bool isFile = fs::path(all[0]).has_extension();
-    throw InputError(fmt::format("found command \"{}\"; allowed: render, plan, compare, merge, devices, bench{}", all[0],
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, view, plan, compare, merge, devices, bench{}", all[0],
                                  isFile ? "; a scene is given as --scene " + all[0]
-                                        : suggestion(all[0], {"render", "plan", "compare", "merge", "devices", "bench"})));
+                                        : suggestion(all[0], {"render", "view", "plan", "compare", "merge", "devices", "bench"})));
 }
 
 } // namespace vkpm

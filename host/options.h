@@ -8,7 +8,7 @@
 
 namespace vkpm {
 
-enum class Command { Print, Render, Plan, Compare, Merge, Devices, Bench };
+enum class Command { Print, Render, View, Plan, Compare, Merge, Devices, Bench };
 
 /// What the command line asks for; what it leaves open is absent.
 struct Options {

@@ -224,6 +224,15 @@ TEST_F(OptionsTest, RefusesWrongScenes) {
     EXPECT_THAT(refusal({"bench", "--scene", "none.json"}), HasSubstr("none.json"));
 }
 
+TEST_F(OptionsTest, AWindowTakesTheOptionsOfARender) {
+    const Options options = parse({"view", "--scene", "box.json", "--size", "64x48", "--passes", "3"});
+    EXPECT_EQ(options.command, Command::View);
+    EXPECT_EQ(options.size, uvec2(64, 48));
+    EXPECT_EQ(options.output, "box.exr");
+    EXPECT_THAT(parse({"view", "--help"}).text, AllOf(HasSubstr("vkpm view --scene FILE"), HasSubstr("default no end"), HasSubstr("Closing it saves")));
+    EXPECT_THAT(refusal({"view"}), HasSubstr("vkpm view --scene FILE"));
+}
+
 TEST_F(OptionsTest, RefusesUnknownWordsAndSuggestsTheNearest) {
     EXPECT_THAT(refusal({"--sceen", "box.json"}), AllOf(HasSubstr("--sceen"), HasSubstr("did you mean --scene?")));
     EXPECT_THAT(refusalOfRender({"--pass=3"}), HasSubstr("did you mean --passes?"));
@@ -231,7 +240,7 @@ TEST_F(OptionsTest, RefusesUnknownWordsAndSuggestsTheNearest) {
     EXPECT_THAT(refusalOfRender({"-q"}), HasSubstr("-q: unknown"));
     EXPECT_THAT(refusal({"devices", "--scene", "box.json"}), HasSubstr("--scene: unknown"));
     EXPECT_THAT(refusal({"rendr"}), AllOf(HasSubstr("rendr"), HasSubstr("did you mean render?")));
-    EXPECT_THAT(refusal({"view"}), HasSubstr("allowed: render, plan, compare, merge, devices, bench"));
+    EXPECT_THAT(refusal({"show"}), HasSubstr("allowed: render, view, plan, compare, merge, devices, bench"));
     EXPECT_THAT(refusal({"box.json"}), HasSubstr("--scene box.json"));
     EXPECT_THAT(refusalOfRender({"extra"}), HasSubstr("\"extra\""));
 }

@@ -84,8 +84,14 @@ TEST_F(Program, RefusalsNameFileAndPlace) {
     }
     EXPECT_EQ(run("--scene nothere.json").code, 2);
     EXPECT_EQ(run("--frobnicate").code, 2);
-    EXPECT_EQ(run("view --scene " + scene("box")).code, 2); // no window in this version
     EXPECT_EQ(run("--scene " + scene("box") + " --device nosuchdevice").code, 1);
+}
+
+TEST_F(Program, AWindowNeedsADisplay) {
+    const Result result = run("view --scene " + scene("box"), "env -u DISPLAY -u WAYLAND_DISPLAY");
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(result.output, testing::AllOf(HasSubstr("glfwInit failed"), HasSubstr("vkpm --scene FILE renders without one")));
+    EXPECT_FALSE(fs::exists(folder / "box.exr"));
 }
 
 TEST_F(Program, DevicesShowsAPassedAudit) {

@@ -19,4 +19,9 @@ struct OutOfMemory : GpuError {
     using GpuError::GpuError;
 };
 
+/// The device stopped working for good; another one may be opened.
+struct DeviceLost : GpuError {
+    using GpuError::GpuError;
+};
+
 } // namespace vkpm

@@ -1,41 +1,9 @@
-/// Instance, choice of device, and its one compute queue.
+/// Choice of a device, and its one compute queue.
 #include "gpu/handles.h"
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace vkpm {
-
-static const char* installHint = "install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers), or run tools/setup";
-
-static bool wantsValidation() {
-    const char* value = std::getenv("VKPM_VALIDATION");
-    return value && std::strcmp(value, "0") != 0;
-}
-
-// A message of the validation layer is a defect of vkpm: say it and stop, so that no test passes over it.
-static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
-    std::fprintf(stderr, "vkpm: validation: %s\n", data->pMessage);
-    std::abort();
-}
-
-static vk::raii::Instance createInstance(const vk::raii::Context& context, bool validate) {
-    const vk::ApplicationInfo application{.pApplicationName = "vkpm", .apiVersion = VK_API_VERSION_1_3};
-    const std::vector<const char*> layers = validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
-    const std::vector<const char*> extensions = validate ? std::vector{VK_EXT_DEBUG_UTILS_EXTENSION_NAME} : std::vector<const char*>{};
-    const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
-                             vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
-                             vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
-    vk::ValidationFeaturesEXT features;
-    features.setEnabledValidationFeatures(enabled);
-    vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};
-    create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
-    return attempt("vkCreateInstance", validate ? "VKPM_VALIDATION needs vulkan-validationlayers" : installHint,
-                   [&] { return vk::raii::Instance(context, create); });
-}
 
 static int computeFamily(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
@@ -141,9 +109,9 @@ static bool hasExtension(const vk::raii::PhysicalDevice& device, std::string_vie
 // allocation; memory that is not there would end the program when it is first written to.
 static std::uint64_t freeBytes(const vk::raii::PhysicalDevice& device) {
     const bool tells = hasExtension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
-    const auto chain = device.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
-    const auto& memory = chain.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
-    const auto& budget = chain.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    const auto memory = device.getMemoryProperties();
+    vk::PhysicalDeviceMemoryBudgetPropertiesEXT budget;
+    if (tells) budget = device.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>().get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
     std::uint64_t most = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++) {
         if (!(memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)) continue;
@@ -158,16 +126,7 @@ const std::uint32_t stampCount = 8192;
 
 static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     auto vk = std::make_unique<Gpu::Handles>();
-    const bool validate = wantsValidation();
-    vk->instance = createInstance(vk->context, validate);
-    if (validate) {
-        const vk::DebugUtilsMessengerCreateInfoEXT create{
-            .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
-            .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
-            .pfnUserCallback = onMessage};
-        vk->messenger = vk->instance.createDebugUtilsMessengerEXT(create);
-    }
-    auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return vk->instance.enumeratePhysicalDevices(); });
+    auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return vk->instance.handle.enumeratePhysicalDevices(); });
     vk->physical = std::move(devices[chooseDevice(devices, wanted)]);
     vk->info = describe(vk->physical);
     vk->family = static_cast<std::uint32_t>(computeFamily(vk->physical));
@@ -208,10 +167,9 @@ Gpu::~Gpu() = default;
 const DeviceInfo& Gpu::info() const { return handles->info; }
 
 std::vector<DeviceInfo> listDevices() {
-    const vk::raii::Context context;
-    const vk::raii::Instance instance = createInstance(context, false);
+    const Instance instance;
     std::vector<DeviceInfo> infos;
-    for (const auto& device : attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.enumeratePhysicalDevices(); }))
+    for (const auto& device : attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); }))
         infos.push_back(describe(device));
     return infos;
 }

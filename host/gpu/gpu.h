@@ -1,6 +1,7 @@
 /// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files here use.
 #pragma once
 #include "gpu/error.h"
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -25,6 +26,9 @@ struct KernelTime {
     std::uint64_t dispatches = 0;
 };
 
+/// Thrown out of what a Gpu was doing when it was told to leave it.
+struct Cancelled {};
+
 class Gpu {
 public:
     /// Opens a device by index or by part of its name; without either the first that lacks nothing, GPUs before CPUs.
@@ -43,6 +47,9 @@ public:
     std::map<std::string, KernelTime> times;
     /// Whether runs are timed; on a CPU the time stamps take some 50 microseconds each, a tenth of a pass.
     bool timesKernels = false;
+
+    /// A flag that another thread may set: from then on submissions throw Cancelled, until it is taken back.
+    const std::atomic<bool>* cancel = nullptr;
 
     struct Handles;
     const std::unique_ptr<Handles> handles;

@@ -1,16 +1,13 @@
 /// The Vulkan handles behind Gpu; included by the sources of host/gpu alone.
 #pragma once
-#define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
+#include "gpu/instance.h"
 #include "gpu/kernel.h"
 #include <functional>
-#include <vulkan/vulkan_raii.hpp>
 
 namespace vkpm {
 
 struct Gpu::Handles {
-    vk::raii::Context context;
-    vk::raii::Instance instance{nullptr};
-    vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
+    Instance instance;
     vk::raii::PhysicalDevice physical{nullptr};
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
@@ -28,14 +25,5 @@ struct Gpu::Handles {
     /// Records commands, submits them and waits until they are done.
     void execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 };
-
-/// Runs a Vulkan call; its failure becomes a GpuError that names the call, the cause and what helps.
-template <class Call> auto attempt(const std::string& what, const std::string& help, Call&& call) {
-    try {
-        return call();
-    } catch (const vk::SystemError& error) {
-        throw GpuError(what + " failed: " + error.what() + (help.empty() ? "" : "; " + help));
-    }
-}
 
 } // namespace vkpm

@@ -94,6 +94,7 @@ void Recording::addTimes() {
 
 void Recording::submit() {
     if (!handles->open) return;
+    if (handles->gpu.cancel && *handles->gpu.cancel) throw Cancelled{};
     handles->commands.end();
     handles->gpu.handles->submitAndWait(handles->commands);
     addTimes();

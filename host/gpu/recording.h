@@ -22,7 +22,8 @@ public:
     }
     /// Fills a buffer with zero bits.
     void clear(const RawBuffer& buffer);
-    /// Executes what was recorded and waits for it; the recording is empty afterwards.
+    /// Executes what was recorded and waits for it; the recording is empty afterwards. Throws Cancelled, before that, if
+    /// Gpu::cancel says so.
     void submit();
 
 private:

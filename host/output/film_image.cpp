@@ -26,6 +26,8 @@ struct Film {
     }
 };
 
+} // namespace
+
 vec3 beauty(const Pixel& pixel) {
     vec3 sum{0};
     for (const vec3& layer : pixel.mean.layers) sum += layer;
@@ -36,8 +38,6 @@ uint encodeSrgb(float linear) {
     const float c = std::clamp(linear, 0.0f, 1.0f);
     return static_cast<uint>(std::lround(255 * (c > 0.0031308f ? 1.055f * std::pow(c, 1 / 2.4f) - 0.055f : 12.92f * c)));
 }
-
-} // namespace
 
 Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers) {
     assert(pixels.size() == size_t(size.x) * size.y);

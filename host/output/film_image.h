@@ -11,6 +11,12 @@ namespace vkpm {
 /// `pixels` are row by row from the top, size.x * size.y of them; radiance in W/(m^2 sr), depth in world units.
 Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers);
 
+/// The sum of a pixel's layers of light.
+vec3 beauty(const Pixel& pixel);
+
+/// A linear value as 8-bit sRGB (IEC 61966-2-1); what is below 0 or above 1 as these.
+uint encodeSrgb(float linear);
+
 /// Beauty as 8-bit sRGB (IEC 61966-2-1) under an exposure in stops, red in the lowest byte.
 std::vector<uint> develop(std::span<const Pixel> pixels, float exposure);
 

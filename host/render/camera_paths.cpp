@@ -24,8 +24,6 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
     }
-    const Camera camera = scene.address.read1().camera;
-    pixelAngle = 2 * glm::length(camera.up) / float(settings.size.y);
 }
 
 void CameraPaths::castShadowRays(Recording& recording) {
@@ -66,6 +64,7 @@ RayCounts CameraPaths::follow(Recording& recording, const Wave& wave, uint index
 RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
     Recording recording(gpu);
     const Wave wave{first, count, SAMPLES_EYE, pass, maps};
+    pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
     compaction.start(count);
     recording.run(eye, count,
                   {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass, settings.seed,

@@ -50,7 +50,7 @@ private:
     Settings settings;
     Features features;
     uint size;
-    float pixelAngle;
+    float pixelAngle = 0;
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;

@@ -20,20 +20,25 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
       lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0})) {
-    const DeviceScene device{.nodes = nodes,
-                             .leaves = leaves,
-                             .primitives = primitives,
-                             .normals = normals,
-                             .materials = materials,
-                             .lights = lights,
-                             .lightCdf = lightCdf,
-                             .targets = targets,
-                             .missing = missing,
-                             .triangleCount = scene.triangleCount,
-                             .lightCount = static_cast<uint>(scene.lights.size()),
-                             .targetCount = static_cast<uint>(scene.targets.size()),
-                             .camera = pinholeCamera(scene.view, settings.size)};
-    address = Buffer<DeviceScene>(gpu, "scene", std::span(&device, 1));
+    device = {.nodes = nodes,
+              .leaves = leaves,
+              .primitives = primitives,
+              .normals = normals,
+              .materials = materials,
+              .lights = lights,
+              .lightCdf = lightCdf,
+              .targets = targets,
+              .missing = missing,
+              .triangleCount = scene.triangleCount,
+              .lightCount = static_cast<uint>(scene.lights.size()),
+              .targetCount = static_cast<uint>(scene.targets.size())};
+    address = Buffer<DeviceScene>(gpu, "scene", 1);
+    look(scene.view, settings.size);
+}
+
+void UploadedScene::look(const View& view, uvec2 size) {
+    device.camera = pinholeCamera(view, size);
+    address.upload(std::span(&device, 1));
 }
 
 void UploadedScene::requireNothingMissing() const {

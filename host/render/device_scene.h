@@ -14,12 +14,17 @@ public:
     /// The camera is that of the scene's view for the film's size; glass reflects as the settings say.
     UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings);
 
+    /// Takes the camera of another view.
+    void look(const View& view, uvec2 size);
+    Camera camera() const { return device.camera; }
+
     /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
     void requireNothingMissing() const;
 
     Buffer<DeviceScene> address;
 
 private:
+    DeviceScene device{};
     Buffer<Node> nodes;
     Buffer<Leaf> leaves;
     Buffer<Primitive> primitives;

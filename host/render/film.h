@@ -4,6 +4,7 @@
 #include "render/pass_runs.h"
 #include "render/pixel.h"
 #include <array>
+#include <functional>
 
 namespace vkpm {
 
@@ -46,7 +47,7 @@ private:
     Run& append(PassRange passes);
     void joinLast();
 
-    Gpu& gpu;
+    std::reference_wrapper<Gpu> gpu;
     uvec2 size;
     uint count;
     Columns columns;

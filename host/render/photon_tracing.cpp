@@ -99,6 +99,7 @@ PhotonLedger PhotonTracing::attempt(uint pass) {
 
 PhotonLedger PhotonTracing::trace(uint pass) {
     if (held == pass) return heldLedger;
+    held.reset(); // until all are there
     heldLedger = attempt(pass);
     if (heldLedger.stored > photons.size()) {
         photons = {};

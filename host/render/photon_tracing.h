@@ -30,6 +30,8 @@ public:
 
     /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
     PhotonLedger trace(uint pass);
+    /// How many photons there are.
+    std::uint64_t arrived() const { return held ? heldLedger.stored : 0; }
 
     Buffer<Photon> photons;
 

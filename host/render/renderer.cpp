@@ -20,13 +20,13 @@ const float nearRadii = 3;
 const float globalPhotonsPerDisc = 40;
 const float causticPhotonsPerDisc = 10;
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waves)
-    : Renderer(device, input, set, sceneFeatures(input, set), waves) {}
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waveSizes)
+    : Renderer(device, input, set, sceneFeatures(input, set), waveSizes) {}
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waves)
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waveSizes)
     : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      camera(gpu, scene, sceneHas, settings, waves.camera), film(gpu, settings.size, sceneHas) {
+      waves(waveSizes), film(gpu, settings.size, sceneHas) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
         if (radius) requireRadius(input, *radius, kind == MapKind::caustic ? "--caustic-radius or /settings/causticRadius" : "--radius or /settings/radius");
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
@@ -36,7 +36,28 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
     };
     if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
-    if (tracesLight(sceneHas, settings)) light.emplace(gpu, scene, sceneHas, settings, flux, waves.photons);
+    constructCamera();
+}
+
+/// What depends on the size of the film. Kernels that the old one has need not be compiled for the new one.
+void Renderer::constructCamera() {
+    CameraPaths paths(gpu, scene, sceneHas, settings, waves.camera);
+    camera.emplace(std::move(paths));
+    if (!tracesLight(sceneHas, settings)) return;
+    LightTracing tracing(gpu, scene, sceneHas, settings, flux, waves.photons);
+    light.emplace(std::move(tracing));
+}
+
+void Renderer::look(const View& view, uvec2 size) {
+    const bool resized = size != settings.size;
+    settings.size = size;
+    scene.look(view, size);
+    if (resized) constructCamera();
+    film = Film(gpu, size, sceneHas);
+    cameraRays = {};
+    for (std::optional<MapStages>* stages : {&global, &caustic})
+        if (*stages) (*stages)->ledger = {};
+    if (light) light->ledger = {};
 }
 
 PhotonLedger Renderer::photons(MapKind kind) const {
@@ -66,6 +87,9 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     if (!stages || (still && stages->ledger.emitted > 0)) return;
     if (still) pass = 0;
     const PhotonLedger ledger = stages->tracing.trace(pass);
+    stages->ledger += ledger;
+    if (stages->built == pass) return;
+    stages->built.reset(); // until it is done
     const float factor = radiusFactor(pass, settings.alpha);
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
     const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 1;
@@ -76,7 +100,7 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     stages->map.kernel = settings.kernel;
     stages->map.nearest = settings.nearest;
     if (stages->field) stages->field->apply(stages->map);
-    stages->ledger += ledger;
+    stages->built = pass;
 }
 
 void Renderer::renderPass(uint pass) {
@@ -88,11 +112,11 @@ void Renderer::renderPass(uint pass) {
 
     const uint pixels = settings.size.x * settings.size.y;
     film.begin(pass);
-    for (uint first = 0; first < pixels; first += camera.capacity()) {
-        const uint count = std::min(camera.capacity(), pixels - first);
-        const RayCounts rays = camera.trace(pass, first, count, maps);
-        if (light) light->collect(camera.samples, camera.capacity(), first, count);
-        film.add(camera.samples, camera.capacity(), first, count);
+    for (uint first = 0; first < pixels; first += camera->capacity()) {
+        const uint count = std::min(camera->capacity(), pixels - first);
+        const RayCounts rays = camera->trace(pass, first, count, maps);
+        if (light) light->collect(camera->samples, camera->capacity(), first, count);
+        film.add(camera->samples, camera->capacity(), first, count);
         cameraRays.paths += rays.paths;
         cameraRays.shadow += rays.shadow;
     }

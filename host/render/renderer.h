@@ -20,6 +20,7 @@ struct MapStages {
     std::optional<RadiusField> field{}; // where it is less, if the program chooses
     PhotonLedger ledger{};
     PhotonMap map{};
+    std::optional<uint> built{}; // pass whose map this is
 
     /// That of most photons in the first pass.
     float typicalRadius() const { return field ? radius * std::exp2(field->median) : radius; }
@@ -41,6 +42,9 @@ public:
     /// Renders the pass of an index, the one after the film's last.
     void renderPass(uint pass);
 
+    /// Begins anew with another view and size; photon maps do not depend on these and stay. Also after Cancelled.
+    void look(const View& view, uvec2 size);
+
     RayCounts rays() const { return cameraRays; }
     const Features& features() const { return sceneHas; }
     const std::optional<MapStages>& globalMap() const { return global; }
@@ -50,6 +54,7 @@ public:
 
 private:
     void measureRadii(MapStages& stages, const Scene& scene, uint photons, float perDisc, bool oneRadius);
+    void constructCamera();
     void buildMap(std::optional<MapStages>& stages, uint pass);
 
     Gpu& gpu;
@@ -57,10 +62,11 @@ private:
     Features sceneHas;
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
+    WaveSizes waves;
     std::optional<MapStages> global;
     std::optional<MapStages> caustic;
     std::optional<LightTracing> light;
-    CameraPaths camera;
+    std::optional<CameraPaths> camera;
     RayCounts cameraRays;
 
 public:

@@ -18,7 +18,7 @@ constexpr std::size_t manyShapes = 10'000'000;
 
 /// The view, with places relative to an origin of coordinates.
 View readView(Reader camera, dvec3 origin) {
-    View view;
+    View view{.base = origin};
     view.origin = vec3{camera.at("origin").place() - origin};
     const Reader targetReader = camera.at("target");
     view.target = vec3{targetReader.place() - origin};
@@ -134,9 +134,9 @@ void readScene(Reader root, Scene& scene) {
 
     ShapeLoader loader{scene, indices};
     const std::size_t count = shapes.count(1, manyShapes, "an array of shapes, at least one");
-    std::vector<dvec3> places{Reader{camera}.at("origin").place(), Reader{camera}.at("target").place()};
+    std::vector<dvec3> places; // not the camera's, which may move while the scene stays where it is
     for (std::size_t i = 0; i < count; ++i)
-        if (const auto place = loader.somePlace(shapes.element(i))) places.push_back(*place);
+        for (const dvec3& place : loader.somePlaces(shapes.element(i))) places.push_back(place);
     scene.origin = chooseOrigin(places);
     scene.view = readView(camera, scene.origin);
     for (std::size_t i = 0; i < count; ++i) loader.add(shapes.element(i));

@@ -21,6 +21,7 @@ struct View {
     vec3 target{0};
     vec3 up{0, 1, 0};
     float fieldOfView = glm::radians(40.0f);
+    glm::dvec3 base{0}; // what origin and target are relative to, in world units: the scene's origin of coordinates
 };
 
 struct Scene {

@@ -40,13 +40,19 @@ vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
 
 } // namespace
 
-std::optional<dvec3> ShapeLoader::somePlace(Reader shape) try {
+std::vector<dvec3> ShapeLoader::somePlaces(Reader shape) try {
     const Transform transform = readTransform(shape);
-    if (const auto center = shape.find("center")) return transform.point(center->place());
-    if (const auto corner = shape.find("corner")) return transform.point(corner->place());
+    if (const auto center = shape.find("center")) {
+        const dvec3 reach{shape.at("radius").precise()};
+        return {transform.point(center->place() - reach), transform.point(center->place() + reach)};
+    }
+    if (const auto corner = shape.find("corner")) {
+        const auto edges = shape.at("edges").elements(2, 2, "");
+        return {transform.point(corner->place()), transform.point(corner->place() + edges[0].place() + edges[1].place())};
+    }
     const Mesh& mesh = meshOf(shape);
     if (mesh.triangles.empty()) return {};
-    return transform.point(mesh.triangles[0].points[0]);
+    return {transform.point(mesh.triangles.front().points[0]), transform.point(mesh.triangles.back().points[1])};
 } catch (const InputError&) {
     return {};
 }

@@ -15,8 +15,8 @@ public:
     /// `indices` maps names to indices into `scene.materials`.
     ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
 
-    /// Some place of a shape, in world units; none if the shape is wrong, which add() tells.
-    std::optional<glm::dvec3> somePlace(Reader shape);
+    /// Two places at opposite ends of a shape, in world units; none if the shape is wrong, which add() tells.
+    std::vector<glm::dvec3> somePlaces(Reader shape);
     /// Adds one element of "shapes", relative to the scene's origin. Throws InputError.
     void add(Reader shape);
     /// Appends the spheres, which follow all triangles.

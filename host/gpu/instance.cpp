@@ -1,0 +1,50 @@
+/// Creating the instance, with or without validation.
+#include "gpu/instance.h"
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace vkpm {
+
+static bool wantsValidation() {
+    const char* value = std::getenv("VKPM_VALIDATION");
+    return value && std::strcmp(value, "0") != 0;
+}
+
+// A message of the validation layer is a defect of vkpm: say it and stop, so that no test passes over it.
+static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
+    std::fprintf(stderr, "vkpm: validation: %s\n", data->pMessage);
+    std::abort();
+}
+
+static vk::raii::Instance createInstance(const vk::raii::Context& context, std::span<const char* const> wanted, bool validate) {
+    const vk::ApplicationInfo application{.pApplicationName = "vkpm", .apiVersion = VK_API_VERSION_1_3};
+    const std::vector<const char*> layers = validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
+    std::vector<const char*> extensions(wanted.begin(), wanted.end());
+    if (validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
+                             vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
+                             vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    vk::ValidationFeaturesEXT features;
+    features.setEnabledValidationFeatures(enabled);
+    vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};
+    create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
+    return attempt("vkCreateInstance", validate ? "VKPM_VALIDATION needs vulkan-validationlayers" : installHint,
+                   [&] { return vk::raii::Instance(context, create); });
+}
+
+Instance::Instance(std::span<const char* const> extensions) {
+    const bool validate = wantsValidation();
+    handle = createInstance(context, extensions, validate);
+    if (!validate) return;
+    const vk::DebugUtilsMessengerCreateInfoEXT create{
+        .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
+        .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
+        .pfnUserCallback = onMessage};
+    messenger = handle.createDebugUtilsMessengerEXT(create);
+}
+
+} // namespace vkpm

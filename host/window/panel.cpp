@@ -1,0 +1,193 @@
+/// The panel with ImGui.
+#include "window/panel.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace vkpm {
+namespace {
+
+const float width = 330;
+const ImVec4 dim{0.62f, 0.64f, 0.68f, 1}, warning{1.0f, 0.66f, 0.35f, 1};
+
+void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
+
+void note(const std::string& text, const ImVec4& color = dim) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos();
+    line(text);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+/// A name, and a value in a column of its own.
+void row(const char* name, const std::string& value) {
+    ImGui::TextColored(dim, "%s", name);
+    ImGui::SameLine(0.32f * ImGui::GetWindowWidth());
+    ImGui::PushTextWrapPos();
+    line(value);
+    ImGui::PopTextWrapPos();
+}
+
+/// 1234567 as 1.23 M.
+std::string short_(double value) {
+    for (const char* unit : {"", " k", " M", " G"}) {
+        if (value < 999.5) return fmt::format("{:.3g}{}", value, unit);
+        value /= 1000;
+    }
+    return fmt::format("{:.3g} T", value);
+}
+
+std::string timeText(double seconds) {
+    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+    const auto s = static_cast<std::uint64_t>(seconds);
+    return s < 3600 ? fmt::format("{}:{:02} min", s / 60, s % 60) : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
+}
+
+std::string radiusText(const std::optional<GatherRadii>& radii, float factor) {
+    if (!radii) return "none";
+    if (radii->smallest == radii->greatest) return fmt::format("{:.4g}", radii->typical * factor);
+    return fmt::format("{:.3g} to {:.3g}, most {:.3g}", radii->smallest * factor, radii->greatest * factor, radii->typical * factor);
+}
+
+void showProgress(const PanelInput& input) {
+    const RenderState& s = input.state;
+    const std::string of = s.passesWanted == NONE ? "" : fmt::format(" of {}", s.passesWanted);
+    row("passes", fmt::format("{}{}, {}", s.passes, of, s.activity));
+    row("time", timeText(s.seconds));
+    const double seconds = std::max(s.seconds, 1e-3);
+    row("rays", fmt::format("{}/s", short_(double(s.rays) / seconds)));
+    row("photons", fmt::format("{}/s", short_(double(s.photons) / seconds)));
+    row("radius", radiusText(s.globalRadii, s.radiusFactor));
+    row("of caustics", radiusText(s.causticRadii, s.radiusFactor));
+    const bool draft = input.draftsPerSecond > 0 && input.picture;
+    const uvec2 size = draft ? input.picture->size : s.settings.size;
+    row("film", fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
+    if (!input.about.empty()) note(input.about);
+    if (!s.problem.empty()) note(s.problem, warning);
+}
+
+void showError(const RenderState& s) {
+    if (!ImGui::CollapsingHeader("Estimated error", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (s.errors.empty()) return note("after some passes");
+    const ErrorEstimate& e = s.errors.back().error;
+    line(fmt::format("{:.2g} %", 100 * e.error));
+    ImGui::SameLine();
+    ImGui::TextColored(dim, "noise %.2g %%, bias %.2g %%; 90 %% sure", 100 * e.noise, 100 * e.bias);
+    drawErrorCurve(s.errors, 6.5f * ImGui::GetFontSize());
+}
+
+void chooseLayer(PanelChoices& choices) {
+    if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (ImGui::BeginTable("layers", 2)) {
+        for (uint i = 0; i < shownLayers.size(); i++) { // down the left column, then the right
+            ImGui::TableNextColumn();
+            const uint layer = i / 2 + i % 2 * 5;
+            if (ImGui::RadioButton(fmt::format("{} {}", (layer + 1) % 10, shownLayers[layer]).c_str(), choices.tone.layer == layer)) choices.tone.layer = layer;
+        }
+        ImGui::EndTable();
+    }
+    if (choices.tone.layer >= SHOW_NOISE) note(fmt::format("shown {} times as bright", errorGain));
+    ImGui::SliderFloat("exposure", &choices.tone.exposure, -8, 8, "%+.2f stops");
+    int curve = int(choices.tone.curve);
+    if (ImGui::Combo("curve", &curve, toneCurveNames.data(), int(toneCurveNames.size()))) choices.tone.curve = ToneCurve(curve);
+    note("Files keep the scene's exposure, without a curve.");
+    ImGui::Checkbox("photons as points", &choices.photons);
+    ImGui::Checkbox("film follows the window", &choices.follows);
+}
+
+void chooseCamera(PanelChoices& choices) {
+    if (!ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (ImGui::Button("copy as JSON")) choices.actions.push_back(Action::copyCamera);
+    ImGui::SameLine();
+    if (ImGui::Button("reset")) choices.actions.push_back(Action::reset);
+    ImGui::SameLine();
+    ImGui::Checkbox("look about", &choices.looksAbout);
+}
+
+/// A slider for a count, by its logarithm; what it says counts when it is let go.
+void countSlider(const char* name, uint now, int low, int high, std::optional<uint>& option) {
+    static std::map<std::string, int> held;
+    int value = held.contains(name) ? held[name] : int(now);
+    if (ImGui::SliderInt(name, &value, low, high, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) held[name] = value;
+    if (ImGui::IsItemDeactivatedAfterEdit()) option = uint(value);
+    if (!ImGui::IsItemActive()) held.erase(name);
+}
+
+void numberSlider(const char* name, float now, float low, float high, bool logarithmic, std::optional<float>& option) {
+    static std::map<std::string, float> held;
+    float value = held.contains(name) ? held[name] : now;
+    const auto flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    if (ImGui::SliderFloat(name, &value, low, high, "%.4g", flags)) held[name] = value;
+    if (ImGui::IsItemDeactivatedAfterEdit()) option = value;
+    if (!ImGui::IsItemActive()) held.erase(name);
+}
+
+/// A radius that is measured unless it is given.
+void radiusSlider(const char* name, const std::optional<GatherRadii>& radii, const std::optional<float>& given, std::optional<float>& option) {
+    if (!radii) return;
+    numberSlider(name, given.value_or(radii->typical), radii->greatest / 50, radii->greatest * 4, true, option);
+    if (given) return;
+    ImGui::SameLine();
+    ImGui::TextColored(dim, "measured");
+}
+
+void chooseSettings(const RenderState& state, PanelChoices& choices) {
+    if (!ImGui::CollapsingHeader("Settings")) return;
+    const Settings& s = state.settings;
+    Options& o = choices.options;
+    ImGui::PushItemWidth(0.42f * ImGui::GetWindowWidth());
+    countSlider("photons", s.photons, 100, 10'000'000, o.photons);
+    countSlider("caustic photons", s.causticPhotons, 100, 10'000'000, o.causticPhotons);
+    countSlider("gather rays", s.gatherRays, 1, 64, o.gatherRays);
+    radiusSlider("radius", state.globalRadii, s.radius, o.radius);
+    radiusSlider("caustic radius", state.causticRadii, s.causticRadius, o.causticRadius);
+    numberSlider("alpha", s.alpha, 0.05f, 1, false, o.alpha);
+    int kernel = int(s.kernel);
+    if (ImGui::Combo("kernel", &kernel, "constant\0cone\0gauss\0epanechnikov\0")) o.kernel = uint(kernel);
+    ImGui::PopItemWidth();
+    note("A change begins anew.");
+    if (ImGui::Button("as at the start")) choices.actions.push_back(Action::usualSettings);
+}
+
+void showLeftOut(const RenderState& state) {
+    if (state.leftOut.empty() || !ImGui::CollapsingHeader("Left out")) return;
+    for (const std::string& text : state.leftOut) note(text);
+}
+
+void showKeys() {
+    if (!ImGui::CollapsingHeader("Keys and mouse")) return;
+    for (const KeyHelp& help : keyHelp) {
+        line(help.keys);
+        note(std::string("    ") + help.meaning);
+    }
+}
+
+} // namespace
+
+int panelWidth(float scale) { return int(width * scale); }
+
+void drawPanel(const PanelInput& input, PanelChoices& choices) {
+    const float wide = float(panelWidth(input.scale));
+    ImGui::SetNextWindowPos({float(input.window.x) - wide, 0});
+    ImGui::SetNextWindowSize({wide, float(input.window.y)});
+    ImGui::Begin("vkpm", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+    ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
+    if (ImGui::Button(choices.paused ? "go on" : "pause", {0.3f * wide, 0})) choices.actions.push_back(Action::pause);
+    ImGui::SameLine();
+    if (ImGui::Button("save EXR and PNG")) choices.actions.push_back(Action::save);
+    if (!input.state.saved.empty()) note(input.state.saved);
+    ImGui::Spacing();
+    showProgress(input);
+    ImGui::Spacing();
+    showError(input.state);
+    chooseLayer(choices);
+    chooseCamera(choices);
+    chooseSettings(input.state, choices);
+    showLeftOut(input.state);
+    showKeys();
+    ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+} // namespace vkpm

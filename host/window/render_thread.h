@@ -1,0 +1,116 @@
+/// The thread that renders for a window: it takes wishes, and gives pictures.
+#pragma once
+#include "render_job.h"
+#include "window/draft.h"
+#include "window/picture.h"
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace vkpm {
+
+/// What the window wants; the thread sees to it as soon as it can.
+struct Wishes {
+    Options options{};          // the command line's, with the panel's values over them
+    std::optional<View> view{}; // absent: the scene's
+    bool moving = false;        // drafts of the view, until it rests
+    bool paused = false;
+    bool photons = false;       // pictures come with photons
+    uint reloads = 0;           // how often the scene's file has changed,
+    uint saves = 0;             // and a file was asked for
+    bool close = false;
+    bool discard = false;       // without saving
+};
+
+class RenderThread {
+public:
+    /// Begins with loading the scene. `wake` is called whenever there is something new, from the thread.
+    RenderThread(const Options& options, EventLog& log, std::function<void()> wake);
+    ~RenderThread();
+
+    /// Changes the wishes; a pass that they make useless is left.
+    void wish(const std::function<void(Wishes&)>& change);
+    const Wishes& wishes() const { return wanted; } // of the thread that wishes
+
+    std::shared_ptr<const Picture> picture() const;
+    RenderState state() const;
+    /// The film's size, if it is known within so many seconds.
+    std::optional<uvec2> waitForSize(double seconds);
+    /// Whether it has ended, by itself only because of a failure.
+    bool ended() const;
+
+    /// Ends the pass under way, unless it is the first, and saves; false if there was no pass to save. Throws what the thread failed
+    /// of.
+    bool close();
+
+private:
+    void run();
+    bool step();
+    bool discards() const;
+    Wishes take();
+    bool load(const Wishes& wish);
+    void openDevice();
+    void construct();
+    void beginAnew();
+    void tell(const Wishes& wish);
+    bool follow(const Wishes& wish);
+    void startOver(const Wishes& wish);
+    void takeView(const Wishes& wish);
+    void drawDraft(const Wishes& wish);
+    void advance();
+    bool interruptible(bool allowed);
+    void endLastPass();
+    void publish();
+    void estimate(const Picture& shown);
+    void showPhotons(Picture& shown) const;
+    void save(uint saves);
+    void report(const char* activity);
+    void saySo(std::string problem);
+    void recover(const GpuError& error);
+
+    // Shared, under the mutex.
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    Wishes wanted;
+    std::uint64_t version = 1;
+    bool leavable = false; // the thread is in a pass
+    bool sizeKnown = false;
+    bool over = false;
+    std::shared_ptr<const Picture> latest;
+    RenderState shared;
+    std::atomic<bool> cancel{false};
+
+    // The thread's own.
+    std::function<void()> wake;
+    EventLog& log;
+    Clock::time_point start = Clock::now();
+    std::uint64_t handled = 0; // version of the wishes
+    Options options;
+    std::optional<Scene> scene; // with the view that is rendered
+    std::string loadedText;
+    View loadedView;
+    std::optional<View> view; // wished, absent: the scene's
+    uint reloaded = 0;
+    uint saved = 0;
+    Settings settings;
+    std::optional<Gpu> gpu;
+    std::optional<RenderJob> job;
+    std::optional<Draft> draft;
+    bool broken = false;    // the job's film is of no use
+    bool failed = false;    // the problem is the device's
+    bool halted = false;    // nothing to render until a wish changes
+    bool hasWork = true;    // without a wish
+    uint published = 0;     // passes in the latest picture
+    bool withPhotons = false;
+    Clock::time_point publication{};
+    double publishing = 0;  // seconds that the last one took
+    uint nextEstimate = 2;  // passes
+    uint losses = 0;        // of the device
+    RenderState own;
+    std::exception_ptr failure;
+    bool savedAtEnd = false;
+    std::jthread thread;
+};
+
+} // namespace vkpm

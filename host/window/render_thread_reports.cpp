@@ -1,0 +1,99 @@
+/// What the thread has to tell: pictures, numbers, files, failures.
+#include "render/radius.h"
+#include "window/render_thread.h"
+#include <fmt/format.h>
+
+namespace vkpm {
+namespace {
+
+const std::size_t mostPoints = 20'000; // photons shown, of each map
+
+void addPoints(const std::optional<MapStages>& map, std::vector<PhotonPoint>& points) {
+    if (!map) return;
+    const std::size_t count = std::min<std::size_t>(map->tracing.arrived(), mostPoints);
+    for (const Photon& photon : map->tracing.photons.download(count)) points.push_back({photon.position, photon.color});
+}
+
+} // namespace
+
+void RenderThread::publish() {
+    const auto before = Clock::now();
+    const auto shown = std::make_shared<Picture>(Picture{.pixels = job->renderer.film.download(), .size = settings.size, .view = scene->view, .passes = job->passCount()});
+    if (shown->passes >= nextEstimate) estimate(*shown);
+    if (withPhotons) showPhotons(*shown);
+    published = shown->passes;
+    {
+        const std::lock_guard lock(mutex);
+        latest = shown;
+    }
+    publication = Clock::now();
+    publishing = secondsSince(before);
+    job->leaveOut(publishing);
+}
+
+/// At numbers of passes that grow by a quarter at least.
+void RenderThread::estimate(const Picture& shown) {
+    if (const auto error = job->estimateOf(shown.pixels)) own.errors.push_back({job->seconds(), shown.passes, *error});
+    nextEstimate = shown.passes + (shown.passes + 3) / 4;
+}
+
+/// The first photons of a map are as good as any: their points are of a low-discrepancy sequence.
+void RenderThread::showPhotons(Picture& shown) const {
+    addPoints(job->renderer.globalMap(), shown.photons);
+    addPoints(job->renderer.causticMap(), shown.photons);
+}
+
+void RenderThread::save(uint saves) {
+    saved = saves;
+    try {
+        job->save(job->renderer.film.download());
+        own.saved = fmt::format("{}, {} passes", options.output.string(), job->passCount());
+        own.saves++;
+        log.write("save", {{"file", options.output.string()}, {"passes", job->passCount()}});
+    } catch (const std::runtime_error& cause) {
+        own.saved = cause.what();
+    }
+}
+
+void RenderThread::report(const char* activity) {
+    own.activity = activity;
+    if (job && !broken) {
+        own.passes = job->passCount();
+        own.passesWanted = job->passesWanted().end == NONE ? NONE : length(job->passesWanted());
+        own.seconds = job->seconds();
+        own.rays = job->rays();
+        own.photons = job->photons();
+        own.globalRadii = job->globalRadii();
+        own.causticRadii = job->causticRadii();
+        own.radiusFactor = own.passes ? radiusFactor(job->renderer.film.passes().end - 1, settings.alpha) : 1;
+    }
+    {
+        const std::lock_guard lock(mutex);
+        shared = own;
+    }
+    wake();
+}
+
+void RenderThread::saySo(std::string problem) {
+    own.problem = std::move(problem);
+    report(own.activity.c_str());
+}
+
+/// After a failure of the device the picture stays. A lost device is opened anew, and rendering begins again; what else failed
+/// waits for other wishes.
+void RenderThread::recover(const GpuError& error) {
+    endLastPass();
+    log.write("failed", {{"cause", error.what()}});
+    job.reset();
+    draft.reset();
+    const bool lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
+    if (lost) gpu.reset();
+    if (lost && ++losses > 3) throw error;
+    failed = true;
+    halted = !lost;
+    hasWork = lost;
+    own.activity = lost ? "preparing" : "stopped";
+    saySo(error.what());
+}
+
+} // namespace vkpm

@@ -1,0 +1,90 @@
+/// A renderer that looks elsewhere, or was told to leave a pass, has the bits of a new one.
+#include "render_support.h"
+#include <cstring>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace vkpm {
+namespace {
+
+const uvec2 size{40, 32};
+
+Settings settingsFor(const Scene& scene, uint integrator) {
+    Settings settings = scene.settings;
+    settings.integrator = integrator;
+    settings.size = size;
+    settings.photons = settings.causticPhotons = 3000;
+    return settings;
+}
+
+View elsewhere(const Scene& scene) {
+    View view = scene.view;
+    view.origin += vec3(0.3f, -0.2f, -0.4f);
+    view.fieldOfView *= 1.1f;
+    return view;
+}
+
+Rendered passesOf(Renderer& renderer) {
+    for (uint pass = 0; pass < 3; pass++) renderer.renderPass(pass);
+    return {renderer.film.download(), renderer.photons(MapKind::global), renderer.photons(MapKind::caustic)};
+}
+
+/// What a new renderer gives for a view and a size.
+Rendered anew(Scene scene, const View& view, Settings settings, uvec2 pixels) {
+    scene.view = view;
+    settings.size = pixels;
+    Renderer renderer(testGpu(), scene, settings);
+    return passesOf(renderer);
+}
+
+void expectSame(const Rendered& a, const Rendered& b) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    EXPECT_EQ(std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Pixel)), 0);
+    EXPECT_EQ(a.global.emitted, b.global.emitted);
+    EXPECT_EQ(a.caustic.stored, b.caustic.stored);
+    EXPECT_EQ(a.caustic.rays, b.caustic.rays);
+}
+
+TEST(Look, AnotherViewOrSizeIsAsIfNew) {
+    for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_LIGHT, INTEGRATOR_PHOTON_MAP}) {
+        const Scene scene = shippedScene("box");
+        const Settings settings = settingsFor(scene, integrator);
+        Renderer renderer(testGpu(), scene, settings);
+        passesOf(renderer);
+        for (const uvec2 pixels : {size, uvec2(24, 48), size}) {
+            renderer.look(elsewhere(scene), pixels);
+            EXPECT_EQ(renderer.film.passCount(), 0u);
+            expectSame(passesOf(renderer), anew(scene, elsewhere(scene), settings, pixels));
+        }
+    }
+}
+
+// The flag comes up after another number of submissions each time, until all passes go through.
+TEST(Look, AfterCancelledItIsAsIfNew) {
+    const Scene scene = shippedScene("box");
+    uint left = 0;
+    for (int microseconds = 300, run = 0; microseconds < 60'000; microseconds = microseconds * 4 / 3, run++) {
+        const Settings settings = settingsFor(scene, run % 2 ? INTEGRATOR_LIGHT : INTEGRATOR_PHOTON);
+        const Rendered expected = anew(scene, elsewhere(scene), settings, size);
+        Renderer renderer(testGpu(), scene, settings, {.photons = 512, .camera = 300});
+        renderer.renderPass(0);
+        std::atomic<bool> cancel{false};
+        testGpu().cancel = &cancel;
+        std::jthread other([&] {
+            std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
+            cancel = true;
+        });
+        try {
+            for (uint pass = 1; pass < 8; pass++) renderer.renderPass(pass);
+        } catch (const Cancelled&) {
+            left++;
+        }
+        testGpu().cancel = nullptr;
+        renderer.look(elsewhere(scene), size);
+        expectSame(passesOf(renderer), expected);
+    }
+    EXPECT_GT(left, 5u);
+}
+
+} // namespace
+} // namespace vkpm
