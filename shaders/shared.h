@@ -499,7 +499,7 @@ struct CellsArgs {
     uint cellMask;
 };
 
-const uint MOST_PER_CELL = 256u; // photons that a gather reads of a cell at most, see crowd.glsl
+const uint MOST_PER_CELL = 1024u; // photons that a gather reads of a cell at most, see crowd.glsl
 
 struct CrowdArgs {
     PTR(uint) keys;

@@ -178,7 +178,7 @@ Kept keptIn(const PhotonMap& onDevice) {
 // stay carry the flux of whole numbers of others; the mean place as exactly as a random choice among runs allows.
 TEST(Grid, CrowdedCellsAreThinned) {
     Random random(13);
-    for (const uint count : {257u, 300u, 511u, 1000u, 65'537u, 1'000'000u}) {
+    for (const uint count : {MOST_PER_CELL + 1, MOST_PER_CELL * 5 / 4, 2 * MOST_PER_CELL - 1, 5000u, 65'537u, 1'000'000u}) {
         std::vector<Photon> photons(count);
         for (Photon& photon : photons) photon = {vec3{random.between(0, 0.5f), random.between(0, 0.5f), 0}, vec3{1}, normalUp};
         Buffer<Photon> buffer(testGpu(), "photons", photons);

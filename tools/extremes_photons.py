@@ -43,7 +43,7 @@ def refused(radius: str) -> None:
     @case("photons", f"radius {radius}", "refused: exit 2, the option, what is allowed")
     def judge(lab: Lab) -> Verdict:
         render = lab.render(BOX, "--radius", radius)
-        found = render.messages.splitlines()[0] if render.messages else "nothing said"
+        found = next((line for line in render.messages.splitlines() if line.startswith("vkpm: ")), "nothing said")
         right = render.code == 2 and "radius" in found and "allowed" in found
         render.problems = []
         return Verdict(render, None, found, right)
