@@ -35,6 +35,34 @@ TEST(Radius, ScheduleStaysForAlphaOneAndFallsForever) {
     EXPECT_NEAR(before / std::pow(2.0, -31.0 / 6), 1 / std::sqrt(std::tgamma(5.0 / 3)), 0.1); // n^((a-1)/2) / sqrt(Gamma(1 + a))
 }
 
+// A floor of side 2 in a scene that a horizon makes a million times as large.
+TEST(Radius, ExtentIsThatOfTheLight) {
+    Scene scene;
+    const float far = 1e6f;
+    scene.primitives = {{{-far, 0, -far}, {far, 0, -far}, {far, 0, far}, 0, NONE, NONE}};
+    scene.triangleCount = 1;
+    scene.bounds = {{-far, 0, -far}, {far, 0, far}};
+    EXPECT_NEAR(extentOf(scene, {}).diagonal, std::sqrt(8.0) * double{far}, 1);
+    EXPECT_NEAR(extentOf(scene, {}).area, 2e12, 1e6);
+
+    Random random(6);
+    std::vector<Photon> photons;
+    for (int i = 0; i < 8000; i++) photons.push_back({vec3(random.between(-1, 1), 0, random.between(-1, 1)), vec3(1), normalUp});
+    for (int i = 0; i < 60; i++) photons.push_back({vec3(far * random.between(-1, 1), 0, 0), vec3(1), normalUp}); // fewer than a hundredth
+    const Extent extent = extentOf(scene, photons);
+    EXPECT_NEAR(extent.diagonal, 2 * std::sqrt(8.0), 0.3);
+    EXPECT_NEAR(extent.reach, 2, 0.1);
+    EXPECT_LT(extent.area, 100);
+
+    // One photon, or all in one place, say nothing about the size of a scene.
+    photons.resize(1);
+    EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
+    photons.resize(5000, photons[0]);
+    EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
+    EXPECT_THROW(requireRadius(scene, 3.0f, "radius"), InputError);
+    EXPECT_NO_THROW(requireRadius(scene, 4.0f, "radius"));
+}
+
 // A plane of side 8 with `sparse` photons, and a spot of side 0.2 in its middle with `dense` more.
 std::vector<Photon> plane(uint sparse, uint dense, float scale) {
     Random random(5);

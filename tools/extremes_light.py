@@ -132,6 +132,18 @@ def white_room(lab: Lab) -> Verdict:
     return Verdict(render, tame, percent(difference), abs(difference) < 0.03, work=16)
 
 
+@case("matter", "closed room of albedo 1, lamp and all", "ends after 10,000 bounces, and says how many photons it left")
+def nothing_absorbs(lab: Lab) -> Verdict:
+    front, lamp = rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white"), BOX["shapes"][-1] | {"material": "white"}
+    scene = plus(without(BOX, LAMP, "mirror ball", "glass ball"), front, lamp)
+    scene = changed(scene, camera=BOX["camera"] | {"origin": [0, 0, 0.99]},
+                    materials=BOX["materials"] | {name: diffuse(1) for name in ("white", "red", "green")})
+    render = lab.render(scene, "--photons", "200", "--passes", "1", "--size", "8x8")
+    lost, told = render.photons("global")["lost"], "200 photons were still under way after 10000 bounces" in render.messages
+    render.problems = [problem for problem in render.problems if "were lost" not in problem]
+    return Verdict(render, None, f"{lost} of 200 photons left, {'and says so' if told else 'in silence'}", lost == 200 and told)
+
+
 def by_index(ior: float, other: float, tolerance: float, expected: str) -> None:
     """A ball of an index that is hardly one."""
     @case("matter", f"index of refraction {ior!r}", expected)

@@ -39,12 +39,15 @@ static double reachOf(const Bounds& box) {
     return std::max({reach.x, reach.y, reach.z});
 }
 
+const std::size_t enoughForExtent = 100; // photons
+
 Extent extentOf(const Scene& scene, std::span<const Photon> some) {
     const Extent whole{diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene)};
-    if (some.empty()) return whole;
+    if (some.size() < enoughForExtent) return whole;
     const Bounds middle = middleOf(some);
-    const double room = 2; // for those beyond the middle; light in one place is no small scene
+    const double room = 2; // for those beyond the middle
     const double diagonal = room * diagonalOf(middle);
+    if (diagonal < std::ldexp(reachOf(middle), -10)) return whole; // all but a point
     return {std::min(whole.diagonal, diagonal), std::min(whole.reach, room * reachOf(middle)), std::min(whole.area, 2 * diagonal * diagonal)};
 }
 
