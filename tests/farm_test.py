@@ -4,31 +4,21 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import psutil
 from distributed import Client
+
+from waiting import eventually
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "scenes/glass.json"
 OPTIONS = ["--scene", str(SCENE), "--passes", "24", "--size", "64x48", "--photons", "2000", "--quiet"]
 LOOPBACK = ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]
 DASK = [sys.executable, "-m", "dask"]
-Found = TypeVar("Found")
-
-
-def eventually(what: str, look: Callable[[], Found]) -> Found:
-    """Waits until a look finds something, and returns it."""
-    deadline = time.monotonic() + 60
-    while time.monotonic() < deadline:
-        if found := look():
-            return found
-        time.sleep(0.02)
-    raise AssertionError(f"waited in vain for {what}")
 
 
 @contextmanager
