@@ -253,6 +253,8 @@ def off(found: float, expected: float) -> float:
 
 def percent(x: float) -> str:
     """With its sign."""
+    if x == 0:
+        return "0"
     return f"{100 * x:+.2g} %" if abs(x) >= 1e-5 else f"{x:+.0e}"
 
 
