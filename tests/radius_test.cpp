@@ -59,8 +59,12 @@ TEST(Radius, ExtentIsThatOfTheLight) {
     EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
     photons.resize(5000, photons[0]);
     EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
-    EXPECT_THROW(requireRadius(scene, 3.0f, "radius"), InputError);
-    EXPECT_NO_THROW(requireRadius(scene, 4.0f, "radius"));
+
+    // What a radius may be at least follows the light, too.
+    EXPECT_THROW(requireRadius(extentOf(scene, {}), 3.0f, "radius"), InputError);
+    EXPECT_NO_THROW(requireRadius(extentOf(scene, {}), 4.0f, "radius"));
+    EXPECT_THROW(requireRadius(extent, 1e-6f, "radius"), InputError);
+    EXPECT_NO_THROW(requireRadius(extent, 1e-5f, "radius"));
 }
 
 // A plane of side 8 with `sparse` photons, and a spot of side 0.2 in its middle with `dense` more.

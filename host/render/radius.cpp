@@ -58,11 +58,15 @@ float widestRadius(const Extent& extent, uint photons, uint nearest) {
     return static_cast<float>(std::min(0.2 * extent.diagonal, std::sqrt(wanted * extent.area / (std::numbers::pi * std::max(photons, 1u)))));
 }
 
-void requireRadius(const Scene& scene, float radius, std::string_view name) {
-    const double least = std::ldexp(reachOf(scene.bounds), -18); // 64 roundings
-    if (radius < least)
-        throw InputError(fmt::format("{}: found {:.3g}; allowed: at least {:.3g}, since the scene's coordinates reach {:.3g} with the digits of 32-bit floats; without it vkpm chooses",
-                                     name, radius, least, reachOf(scene.bounds)));
+static double leastRadius(const Extent& extent) { return std::ldexp(extent.reach, -18); } // 64 roundings
+
+bool drownsInRounding(const Extent& extent, float radius) { return radius < leastRadius(extent); }
+
+void requireRadius(const Extent& extent, float radius, std::string_view name) {
+    if (drownsInRounding(extent, radius))
+        throw InputError(fmt::format("{}: found {:.3g}; allowed: at least {:.3g}, since the coordinates of what is lit reach {:.3g} with the digits of 32-bit floats; "
+                                     "without it vkpm chooses",
+                                     name, radius, leastRadius(extent), extent.reach));
 }
 
 uint mostLevels(const Extent& extent, float radius) {

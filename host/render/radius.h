@@ -21,8 +21,11 @@ Extent extentOf(const Scene& scene, std::span<const Photon> some);
 /// photons, or, where the k nearest of them are sought (nearest > 0), wide enough to hold them almost everywhere.
 float widestRadius(const Extent& extent, uint photons, uint nearest);
 
-/// Throws InputError, with the name of what was given, if a radius is so small that the roundings of the scene's coordinates would fill its disc.
-void requireRadius(const Scene& scene, float radius, std::string_view name);
+/// Whether a radius is so small that roundings of coordinates would fill its disc.
+bool drownsInRounding(const Extent& extent, float radius);
+
+/// Throws InputError, with the name of what was given, if a radius drowns in rounding.
+void requireRadius(const Extent& extent, float radius, std::string_view name);
 
 /// How often the grid's cells may be split before the rounding of the scene's coordinates shows in them.
 uint mostLevels(const Extent& extent, float radius);

@@ -28,11 +28,11 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
       waves(waveSizes), film(gpu, settings.size, sceneHas) {
     const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
-        if (radius) requireRadius(input, *radius, kind == MapKind::caustic ? "--caustic-radius or /settings/causticRadius" : "--radius or /settings/radius");
         const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
         stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
                                  flux / float(photons), radius.value_or(0.0f)});
-        if (!radius) measureRadii(*stages, input, photons, perDisc, kind == MapKind::global);
+        if (radius) checkRadius(*stages, input, kind == MapKind::caustic ? "--caustic-radius or /settings/causticRadius" : "--radius or /settings/radius");
+        else measureRadii(*stages, input, photons, perDisc, kind == MapKind::global);
     };
     if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
     if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
@@ -66,10 +66,22 @@ PhotonLedger Renderer::photons(MapKind kind) const {
     return stages ? stages->ledger : PhotonLedger{};
 }
 
+static std::vector<Photon> somePhotons(const PhotonTracing& tracing, std::uint64_t stored) {
+    return tracing.photons.download(std::min<std::uint64_t>(stored, photonsForExtent));
+}
+
+/// Whether a radius that was given makes sense. Only one that drowns in the roundings of the scene's farthest coordinates has to
+/// wait for photons to tell how far the light gets.
+void Renderer::checkRadius(MapStages& stages, const Scene& input, std::string_view name) {
+    if (!drownsInRounding(extentOf(input, {}), stages.radius)) return;
+    const std::uint64_t stored = stages.tracing.trace(firstPass).stored;
+    requireRadius(extentOf(input, somePhotons(stages.tracing, stored)), stages.radius, name);
+}
+
 void Renderer::measureRadii(MapStages& stages, const Scene& input, uint photons, float perDisc, bool oneRadius) {
     const bool byDensity = settings.nearest == 0 && !settings.showPoints;
     const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius || !byDensity ? firstPass : noPass).stored);
-    const Extent extent = extentOf(input, stages.tracing.photons.download(std::min(stored, photonsForExtent)));
+    const Extent extent = extentOf(input, somePhotons(stages.tracing, stored));
     stages.radius = widestRadius(extent, photons, settings.nearest);
     if (!byDensity) return;
     const uint levels = mostLevels(extent, stages.radius);
