@@ -79,7 +79,6 @@ class Verdict:
     measured: str
     holds: bool
     work: float = 1  # how much more than its sibling it has to do
-    note: str = ""
 
 
 class Lab:

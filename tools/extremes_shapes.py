@@ -70,13 +70,12 @@ def one_triangle(lab: Lab) -> Verdict:
     return against_path(lab, scene, 0.02)
 
 
-@case("shape", "a mesh of 5,000,000 triangles", "the box's means within 0.5 %", heavy=True)
+@case("shape", "a bumpy mesh of 5,000,000 triangles", "mean of the path tracer within 2 %", heavy=True)
 def many_triangles(lab: Lab) -> Verdict:
     n = 1582
     points = [(x, y + 1e-4 * math.sin(7 * i), z) for i, (x, y, z) in enumerate(grid_points(n))]
-    render = lab.render(floor_mesh(lab.mesh("many.obj", points, grid_triangles(n))), "--passes", "16")
-    tame = lab.render(floor_mesh(lab.mesh("even.obj", grid_points(128), grid_triangles(128))), "--passes", "16")
-    return Verdict(render, tame, *same_means(render, tame, 0.005), note=f"{2 * n * n:,} triangles")
+    scene = floor_mesh(lab.mesh("many.obj", points, grid_triangles(n)))
+    return against_path(lab, scene, 0.02, floor_mesh(lab.mesh("even.obj", grid_points(128), grid_triangles(128))))
 
 
 def dark_room(thickness: float) -> Scene:
@@ -99,7 +98,7 @@ def thin_wall(lab: Lab) -> Verdict:
     render, longer, tame = lab.render(dark, "--passes", "16"), lab.render(dark, "--passes", "64"), lab.render(lit, "--passes", "16")
     leak, later = render.mean() / tame.mean(), longer.mean() / tame.mean()
     return Verdict(render, tame, f"direct {render.mean('direct'):g}; in all {leak:.1e}, after 64 passes {later:.1e}",
-                   render.mean("direct") == 0 and later < 0.8 * leak <= 0.8e-3)
+                   render.mean("direct") == 0 and later < 0.9 * leak <= 0.9e-3)
 
 
 @case("shape", "a smooth ball of 20 triangles, of glass", "mean of the path tracer within 2 %")
