@@ -49,7 +49,7 @@ def lamp_in_glass(lab: Lab) -> Verdict:
     return against_path(lab, plus(without(BOX, LAMP), sphere(GLASS_BALL, 0.15, emission=[17, 12, 4])), 0.02, passes="512")
 
 
-@case("light", "two lamps, flux 10^9 : 1", "the brighter one's bits, but for one path in 10^9")
+@case("light", "two lamps, flux 10^9 : 1", "the brighter one's picture: means within 0.1 %")
 def two_lamps(lab: Lab) -> Verdict:
     weak = rectangle([-0.9, 0.98, -0.9], [0.01, 0, 0], [0, 0, 0.01], emission=[17e-9 * 2500, 12e-9 * 2500, 4e-9 * 2500])
     tame, render = lab.render(BOX), lab.render(plus(BOX, weak))
@@ -90,7 +90,7 @@ def diffuse(albedo: float) -> dict:
     return {"type": "diffuse", "albedo": albedo}
 
 
-@case("matter", "all albedos 0", "direct light alone, the same bits as ever")
+@case("matter", "all albedos 0", "nothing is reflected; the lamp is seen")
 def black(lab: Lab) -> Verdict:
     names = ("white", "red", "green")
     scene = changed(without(BOX, "mirror ball", "glass ball"), materials=BOX["materials"] | {name: diffuse(0) for name in names})
