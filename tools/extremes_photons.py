@@ -17,10 +17,10 @@ case("photons", "0 photons", "no indirect light, no caustics; emission and direc
 
 def few(count: int) -> None:
     """Fewer than a disc holds."""
-    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass", "the mean of many within 25 %: the noise of 512 passes")
+    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass", "the mean of many within 25 %: the noise of 128 passes")
     def judge(lab: Lab) -> Verdict:
         def discs(photons: int) -> tuple[str, ...]:
-            return ("--size", "8x8", "--passes", "512", "--radius", "0.5", "--caustic-radius", "0.5", "--alpha", "1", "--gather-rays", "4",
+            return ("--size", "8x8", "--passes", "128", "--radius", "0.5", "--caustic-radius", "0.5", "--alpha", "1", "--gather-rays", "4",
                     "--photons", str(photons), "--caustic-photons", str(photons))
         tame, render = lab.render(BOX, *discs(64)), lab.render(BOX, *discs(count))
         difference = off(render.mean(), tame.mean())
