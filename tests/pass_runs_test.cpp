@@ -4,6 +4,7 @@
 #include "output/error_estimate.h"
 #include "render/film.h"
 #include "render/noise.h"
+#include "runs_of.h"
 #include "scene/scene.h"
 #include <algorithm>
 #include <cstring>
@@ -13,21 +14,6 @@ namespace vkpm {
 namespace {
 
 bool operator==(PassRange a, PassRange b) { return a.begin == b.begin && a.end == b.end; }
-
-// Joins runs from the left as the film does.
-void append(std::vector<PassRange>& runs, PassRange run) {
-    runs.push_back(run);
-    while (runs.size() > 1 && joins(runs[runs.size() - 2], runs.back())) {
-        runs[runs.size() - 2].end = runs.back().end;
-        runs.pop_back();
-    }
-}
-
-std::vector<PassRange> runsOf(PassRange passes) {
-    std::vector<PassRange> runs;
-    for (uint pass = passes.begin; pass < passes.end; pass++) append(runs, {pass, pass + 1});
-    return runs;
-}
 
 TEST(PassRuns, DependOnTheRangeAlone) {
     Random random(1);

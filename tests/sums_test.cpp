@@ -3,6 +3,7 @@
 #include "map.h"
 #include "render/film.h"
 #include "render/noise.h"
+#include "runs_of.h"
 #include "scene/scene.h"
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -86,21 +87,8 @@ glm::dvec3 varianceIn(const Film& film, const std::vector<std::vector<PixelSum>>
     return spread.variance(batchesOf(runs, batch));
 }
 
-// The runs that a film of all passes keeps.
-std::vector<PassRange> allRuns() {
-    std::vector<PassRange> runs;
-    for (uint pass = 0; pass < passCount; pass++) {
-        runs.push_back({pass, pass + 1});
-        while (runs.size() > 1 && joins(runs[runs.size() - 2], runs.back())) {
-            runs[runs.size() - 2].end = runs.back().end;
-            runs.pop_back();
-        }
-    }
-    return runs;
-}
-
 TEST(Sums, OfAHundredThousandPasses) {
-    const std::vector<PassRange> runs = allRuns();
+    const std::vector<PassRange> runs = runsOf({0, passCount});
     const uint batch = greatestBatch(runs);
     Expected expected(runs, batch);
     const Film film = filmOf(expected);
