@@ -11,6 +11,8 @@ import json
 import shutil
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import extremes_places  # isort: skip: the order of the table
@@ -33,6 +35,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", default="", metavar="WORDS", help="cases whose group and name have these words")
     parser.add_argument("--heavy", action="store_true", help="also those that take gigabytes or minutes")
     parser.add_argument("--driver", choices=("lanes4", "swiftshader"), help="on lavapipe with four lanes in place of eight, or on SwiftShader")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="renders N cases at a time; slow ones are timed again alone (default 1)")
     return parser.parse_args()
 
 
@@ -55,12 +58,18 @@ def ratio(verdict: Verdict) -> float:
     return max(verdict.render.seconds - NOISE, 0) / (verdict.tame.seconds * verdict.work)
 
 
-def judged(lab: Lab, case: Case) -> tuple[Verdict | None, list[str]]:
-    """A case's verdict, and all that is wrong."""
+def judged(lab: Lab, case: Case) -> Verdict | list[str]:
+    """A case's verdict, or why there is none."""
     try:
-        verdict = case.judge(lab)
+        return case.judge(lab)
     except Refused as refusal:
-        return None, refusal.args[0]
+        return refusal.args[0]
+
+
+def checked(lab: Lab, verdict: Verdict | list[str]) -> tuple[Verdict | None, list[str]]:
+    """A verdict, and all that is wrong."""
+    if isinstance(verdict, list):
+        return None, verdict
     for _ in range(2):  # what else the machine did counts for nothing
         if ratio(verdict) <= TIMES:
             break
@@ -115,18 +124,22 @@ def main() -> int:
     folder = args.output or Path(tempfile.mkdtemp(prefix="vkpm-extremes-"))
     folder.mkdir(parents=True, exist_ok=True)
     lab = Lab(args.vkpm, folder.resolve(), environment(args.driver))
+    cases = [case for case in CASES if (args.heavy or not case.heavy) and args.only in f"{case.group} {case.name}"]
+    if not cases:
+        sys.exit(f"tools/extremes: --only: no case has the words {args.only!r}; without it all are rendered")
+    if args.jobs == 1:
+        verdicts = map(partial(judged, lab), cases)
+    else:
+        with ThreadPoolExecutor(args.jobs) as pool:  # all, so that nothing else runs when times are taken again
+            verdicts = list(pool.map(partial(judged, lab), cases))
     rows, failed = [], 0
-    for case in CASES:
-        if (case.heavy and not args.heavy) or args.only not in f"{case.group} {case.name}":
-            continue
-        verdict, wrong = judged(lab, case)
+    for case, found in zip(cases, verdicts, strict=True):
+        verdict, wrong = checked(lab, found)
         words = row(case, verdict, wrong)
         rows.append((words, thumbnail(verdict)))
         failed += bool(wrong)
         print(f"{'FAILS' if wrong else 'holds'}  {words[0]}: {words[1]}\n       expected {words[2]}\n       measured {words[3]}; "
               f"time {words[4]}" + "".join(f"\n       {line}" for line in wrong), flush=True)
-    if not rows:
-        sys.exit(f"tools/extremes: --only: no case has the words {args.only!r}; without it all are rendered")
     device = next((render.stats["device"] for render in lab.known.values() if not render.code), "no device")
     print(f"{len(rows)} cases on {device}; {failed} fail")
     if args.output:

@@ -5,6 +5,8 @@ import hashlib
 import json
 import os
 import subprocess
+import threading
+from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -82,13 +84,14 @@ class Verdict:
 
 
 class Lab:
-    """Renders scenes, each once, in a folder."""
+    """Renders scenes, each once, in a folder; threads may share it."""
 
     def __init__(self, vkpm: str, folder: Path, environment: dict[str, str]):
         self.vkpm = str(Path(vkpm).resolve())
         self.folder = folder
         self.environment = os.environ | environment
         self.known: dict[str, Render] = {}
+        self.locks: dict[str, threading.Lock] = defaultdict(threading.Lock)
 
     def render(self, scene: Scene, *options: str) -> Render:
         """A render of a scene, with pairs of options that win over those of OPTIONS."""
@@ -96,11 +99,12 @@ class Lab:
         pairs = OPTIONS | dict(zip(options[::2], options[1::2], strict=True))
         words = [word for pair in pairs.items() for word in pair]
         key = hashlib.sha256(repr((text, words)).encode()).hexdigest()[:16]
-        if key not in self.known:
-            file = self.folder / f"{key}.exr"
-            file.with_suffix(".scene.json").write_text(text)
-            self.known[key] = self.run(file, words)
-        return self.known[key]
+        with self.locks[key]:
+            if key not in self.known:
+                file = self.folder / f"{key}.exr"
+                file.with_suffix(".scene.json").write_text(text)
+                self.known[key] = self.run(file, words)
+            return self.known[key]
 
     def mesh(self, name: str, points: list, triangles: list) -> str:
         """Writes an OBJ file beside the scenes; triangles are indices of points."""

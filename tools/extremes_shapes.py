@@ -75,7 +75,7 @@ def many_triangles(lab: Lab) -> Verdict:
     n = 1582
     points = [(x, y + 1e-4 * math.sin(7 * i), z) for i, (x, y, z) in enumerate(grid_points(n))]
     scene = floor_mesh(lab.mesh("many.obj", points, grid_triangles(n)))
-    return against_path(lab, scene, 0.02, floor_mesh(lab.mesh("even.obj", grid_points(128), grid_triangles(128))))
+    return against_path(lab, scene, 0.02, floor_mesh(lab.mesh("even128.obj", grid_points(128), grid_triangles(128))))
 
 
 def dark_room(thickness: float) -> Scene:

@@ -142,23 +142,47 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     return vk;
 }
 
+Gpu::Handles::~Handles() {
+    try {
+        if (!underWay.empty()) device.waitIdle();
+    } catch (const vk::SystemError&) { // a device that is lost runs nothing
+    }
+}
+
+vk::raii::CommandBuffer Gpu::Handles::begin() const {
+    auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    return std::move(buffers[0]);
+}
+
+static void enqueue(const vk::raii::Queue& queue, const vk::raii::CommandBuffer& recorded, vk::Fence fence) {
+    const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *recorded};
+    queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo}, fence);
+}
+
+static const char* const running = "running commands on the device";
+static const char* const runningHint = "another program may have hung or reset it";
+
+void Gpu::Handles::submit(vk::raii::CommandBuffer recorded, std::shared_ptr<const void> used) const {
+    attempt(running, runningHint, [&] { enqueue(queue, recorded, nullptr); });
+    underWay.emplace_back(std::move(recorded), std::move(used));
+}
+
 void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const {
-    attempt("running commands on the device", "another program may have hung or reset it", [&] {
-        const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *recorded};
-        const vk::SubmitInfo2 submit{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo};
+    attempt(running, runningHint, [&] {
         const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
-        queue.submit2(submit, *fence);
+        enqueue(queue, recorded, *fence);
         const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
     });
+    underWay.clear();
 }
 
 void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
-    const auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
-    buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    record(buffers[0]);
-    buffers[0].end();
-    submitAndWait(buffers[0]);
+    const vk::raii::CommandBuffer recording = begin();
+    record(recording);
+    recording.end();
+    submitAndWait(recording);
 }
 
 Gpu::Gpu(std::string_view wanted) : handles(open(wanted)) {}

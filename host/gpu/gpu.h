@@ -47,6 +47,9 @@ public:
     std::map<std::string, KernelTime> times;
     /// Whether runs are timed; on a CPU the time stamps take some 50 microseconds each, a tenth of a pass.
     bool timesKernels = false;
+    /// Drivers that compile kernels when they first run do so as soon as these are made, while the host goes on. They compile one
+    /// at a time: for kernels that run soon.
+    bool compilesAhead = false;
 
     /// A flag that another thread may set: from then on submissions throw Cancelled, until it is taken back.
     const std::atomic<bool>* cancel = nullptr;

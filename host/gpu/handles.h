@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/instance.h"
 #include "gpu/kernel.h"
+#include <deque>
 #include <functional>
 
 namespace vkpm {
@@ -18,9 +19,17 @@ struct Gpu::Handles {
     bool mapsDeviceMemory = false; // the host can write device memory directly
     std::uint64_t freeBytes = 0; // of device memory when the device was opened
     DeviceInfo info;
-    std::map<std::string, std::weak_ptr<const RawKernel::Handles>> kernels; // by name and features
+    std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>> kernels; // by SPIR-V and features
+    std::deque<std::shared_ptr<const RawKernel::Handles>> recent; // kernels that are kept for renderers to come
+    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>> underWay; // submitted without waiting, and what they use
 
-    /// Submits recorded commands and waits until they are done.
+    ~Handles();
+
+    /// A command buffer that can be recorded.
+    vk::raii::CommandBuffer begin() const;
+    /// Submits recorded commands, leaves them to run, and keeps what they use until they are done.
+    void submit(vk::raii::CommandBuffer commands, std::shared_ptr<const void> used) const;
+    /// Submits recorded commands and waits until they, and all before, are done.
     void submitAndWait(const vk::raii::CommandBuffer& commands) const;
     /// Records commands, submits them and waits until they are done.
     void execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;

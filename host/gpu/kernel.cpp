@@ -5,6 +5,8 @@
 
 namespace vkpm {
 
+const std::size_t keptKernels = 64; // after their last renderer; about a megabyte each on lavapipe
+
 // The fields of Features are all uint, in the order of FEATURES.
 static const std::array featureEntries{
 #define X(id, name, value) vk::SpecializationMapEntry{.constantID = id, .offset = offsetof(Features, name), .size = sizeof(uint)},
@@ -29,10 +31,25 @@ static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device&
     return handles;
 }
 
+// A dispatch of nothing: drivers that compile a kernel when it first runs do so while the host goes on.
+static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel, std::uint32_t argsBytes) {
+    vk::raii::CommandBuffer commands = gpu.begin();
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel->pipeline);
+    commands.pushConstants<std::uint8_t>(*kernel->layout, vk::ShaderStageFlagBits::eCompute, 0, std::vector<std::uint8_t>(argsBytes));
+    commands.dispatch(0, 1, 1);
+    commands.end();
+    gpu.submit(std::move(commands), kernel);
+}
+
 RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {
-    std::weak_ptr<const Handles>& known = gpu.handles->kernels[name + std::string(reinterpret_cast<const char*>(&features), sizeof(features))];
+    const std::string featureBytes(reinterpret_cast<const char*>(&features), sizeof(features));
+    std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(name).data(), featureBytes}];
     handles = known.lock();
-    if (!handles) known = handles = compile(gpu.handles->device, name, features, argsBytes);
+    if (handles) return;
+    known = handles = compile(gpu.handles->device, name, features, argsBytes);
+    if (gpu.compilesAhead) warmUp(*gpu.handles, handles, argsBytes);
+    gpu.handles->recent.push_back(handles);
+    if (gpu.handles->recent.size() > keptKernels) gpu.handles->recent.pop_front();
 }
 
 } // namespace vkpm

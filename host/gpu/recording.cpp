@@ -48,9 +48,7 @@ void Recording::begin() {
     if (handles->open) return;
     const auto& vk = *handles->gpu.handles;
     if (handles->stamps()) vk.stamps.reset(0, maxStamps);
-    auto buffers = vk.device.allocateCommandBuffers({.commandPool = *vk.commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
-    handles->commands = std::move(buffers[0]);
-    handles->commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    handles->commands = vk.begin();
     if (handles->stamps()) handles->commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *vk.stamps, 0);
     handles->open = true;
 }

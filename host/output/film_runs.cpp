@@ -33,6 +33,22 @@ const Channel& channelOf(const Image& image, const std::string& name) {
     throw InputError(fmt::format("has no channel {}", name));
 }
 
+std::vector<std::size_t> columnsOf(uint layers) {
+    std::vector<std::size_t> columns;
+    for (std::size_t k = 0; k < PIXEL_FLOATS; k++)
+        if (layers >> COLUMN_NAMES[k].layer & 1) columns.push_back(k);
+    return columns;
+}
+
+/// Calls `copy` with a pixel and a column of `layers`; some pixels at a time, as many as stay in the cache.
+template <class Copy> void forEachValue(std::size_t pixels, uint layers, Copy copy) {
+    const std::vector<std::size_t> columns = columnsOf(layers);
+    const std::size_t block = 256;
+    for (std::size_t first = 0; first < pixels; first += block)
+        for (const std::size_t k : columns)
+            for (std::size_t i = first; i < std::min(first + block, pixels); i++) copy(i, k);
+}
+
 /// "12:16" at the front of `text`, which moves on behind it.
 PassRange takeRange(std::string_view& text) {
     PassRange passes{};
@@ -54,13 +70,11 @@ void addRun(Image& image, PassRange passes, std::span<const PixelSum> sums, uint
     std::string& runs = image.attributes["runs"];
     const auto index = runs.empty() ? 0 : std::ranges::count(runs, ' ') + 1;
     runs += fmt::format("{}{}:{}", runs.empty() ? "" : " ", passes.begin, passes.end);
-    for (std::size_t k = 0; k < PIXEL_FLOATS; k++) {
-        if (!(layers >> COLUMN_NAMES[k].layer & 1)) continue;
-        std::vector<float> values;
-        values.reserve(sums.size());
-        for (const PixelSum& sum : sums) values.push_back(reinterpret_cast<const float*>(&sum)[k]);
-        image.channels.push_back({channelName(std::size_t(index), k), std::move(values)});
-    }
+    std::vector<Channel> channels; // of all columns
+    for (std::size_t k = 0; k < PIXEL_FLOATS; k++) channels.push_back({channelName(std::size_t(index), k), {}});
+    for (const std::size_t k : columnsOf(layers)) channels[k].values.resize(sums.size());
+    forEachValue(sums.size(), layers, [&](std::size_t i, std::size_t k) { channels[k].values[i] = reinterpret_cast<const float*>(&sums[i])[k]; });
+    for (const std::size_t k : columnsOf(layers)) image.channels.push_back(std::move(channels[k]));
 }
 
 std::vector<PassRange> runsOf(const Image& image) {
@@ -76,11 +90,9 @@ std::vector<PassRange> runsOf(const Image& image) {
 
 std::vector<PixelSum> sumsOf(const Image& image, std::size_t run, uint layers) {
     std::vector<PixelSum> sums(std::size_t(image.size.x) * image.size.y, PixelSum{});
-    for (std::size_t k = 0; k < PIXEL_FLOATS; k++) {
-        if (!(layers >> COLUMN_NAMES[k].layer & 1)) continue;
-        const std::vector<float>& values = channelOf(image, channelName(run, k)).values;
-        for (std::size_t i = 0; i < sums.size(); i++) reinterpret_cast<float*>(&sums[i])[k] = values[i];
-    }
+    std::array<const float*, PIXEL_FLOATS> values{};
+    for (const std::size_t k : columnsOf(layers)) values[k] = channelOf(image, channelName(run, k)).values.data();
+    forEachValue(sums.size(), layers, [&](std::size_t i, std::size_t k) { reinterpret_cast<float*>(&sums[i])[k] = values[k][i]; });
     return sums;
 }
 

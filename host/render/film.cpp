@@ -35,9 +35,15 @@ std::vector<Place> placesOf(const Columns& film) {
     return places;
 }
 
-template <class Copy> void forEachFloat(const Columns& film, Copy copy) {
-    for (const Place& place : placesOf(film))
-        for (uint i = 0; i < place.floats; i++) copy(place.inPixel + i, place.inFilm + i);
+/// Calls `copy` with a pixel, and the places of a float in its PixelSum and among the columns of a film; some pixels at a time,
+/// as many as stay in the cache.
+template <class Copy> void forEachFloat(const Columns& film, uint pixels, Copy copy) {
+    const std::vector<Place> places = placesOf(film);
+    const uint block = 256;
+    for (uint first = 0; first < pixels; first += block)
+        for (const Place& place : places)
+            for (uint k = 0; k < place.floats; k++)
+                for (uint i = first; i < std::min(first + block, pixels); i++) copy(i, place.inPixel + k, place.inFilm + k);
 }
 
 /// Sums over runs of passes, in double precision.
@@ -84,9 +90,7 @@ Pixel Total::pixel(double n) const {
 
 Film::Film(Gpu& device, uvec2 pixels, const Features& features)
     : gpu(device), size(pixels), count(size.x * size.y), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
-    Recording recording(gpu);
-    recording.clear(status);
-    recording.submit();
+    status.upload(std::vector(1, Status{}));
 }
 
 PassRange Film::passes() const { return runs.empty() ? PassRange{} : PassRange{runs.front().passes.begin, runs.back().passes.end}; }
@@ -127,16 +131,16 @@ void Film::end() {
 std::vector<PixelSum> Film::sums(std::size_t index) const {
     const std::vector<float> values = runs[index].sums.download();
     std::vector<PixelSum> sums(count, PixelSum{});
-    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-        for (uint i = 0; i < count; i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[std::size_t(inFilm) * count + i];
+    forEachFloat(columns, count, [&](uint i, uint inPixel, uint inFilm) {
+        reinterpret_cast<float*>(&sums[i])[inPixel] = values[std::size_t(inFilm) * count + i];
     });
     return sums;
 }
 
 void Film::restore(PassRange passes, std::span<const PixelSum> sums) {
     std::vector<float> values(std::size_t(columns.SUM_COLUMNS) * count);
-    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-        for (uint i = 0; i < count; i++) values[std::size_t(inFilm) * count + i] = reinterpret_cast<const float*>(&sums[i])[inPixel];
+    forEachFloat(columns, count, [&](uint i, uint inPixel, uint inFilm) {
+        values[std::size_t(inFilm) * count + i] = reinterpret_cast<const float*>(&sums[i])[inPixel];
     });
     append(passes).sums.upload(values);
     joinLast();

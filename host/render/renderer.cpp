@@ -26,17 +26,23 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSiz
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waveSizes)
     : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      waves(waveSizes), film(gpu, settings.size, sceneHas) {
-    const auto construct = [&](std::optional<MapStages>& stages, MapKind kind, uint photons, std::optional<float> radius, float perDisc) {
-        const char* name = kind == MapKind::caustic ? "caustic map" : "global map";
-        stages.emplace(MapStages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons), PhotonGrid(gpu, name),
-                                 flux / float(photons), radius.value_or(0.0f)});
-        if (radius) checkRadius(*stages, input, kind == MapKind::caustic ? "--caustic-radius or /settings/causticRadius" : "--radius or /settings/radius");
-        else measureRadii(*stages, input, photons, perDisc, kind == MapKind::global);
-    };
-    if (sceneHas.hasGlobalMap) construct(global, MapKind::global, settings.photons, settings.radius, globalPhotonsPerDisc);
-    if (sceneHas.hasCausticMap) construct(caustic, MapKind::caustic, settings.causticPhotons, settings.causticRadius, causticPhotonsPerDisc);
+      waves(waveSizes), global(construct(input, MapKind::global)), caustic(construct(input, MapKind::caustic)), film(gpu, settings.size, sceneHas) {
     constructCamera();
+}
+
+/// The stages of a map with its radii, if the scene has use for it.
+std::optional<MapStages> Renderer::construct(const Scene& input, MapKind kind) {
+    const bool isGlobal = kind == MapKind::global;
+    if (!(isGlobal ? sceneHas.hasGlobalMap : sceneHas.hasCausticMap)) return {};
+    const uint photons = isGlobal ? settings.photons : settings.causticPhotons;
+    const std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
+    gpu.compilesAhead = true;
+    MapStages stages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons),
+                     PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f)};
+    if (radius) checkRadius(stages, input, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
+    else measureRadii(stages, input, photons, isGlobal ? globalPhotonsPerDisc : causticPhotonsPerDisc, isGlobal);
+    gpu.compilesAhead = false;
+    return stages;
 }
 
 /// What depends on the size of the film. Kernels that the old one has need not be compiled for the new one.
@@ -80,13 +86,14 @@ void Renderer::checkRadius(MapStages& stages, const Scene& input, std::string_vi
 
 void Renderer::measureRadii(MapStages& stages, const Scene& input, uint photons, float perDisc, bool oneRadius) {
     const bool byDensity = settings.nearest == 0 && !settings.showPoints;
+    if (byDensity) stages.field.emplace(gpu);
     const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius || !byDensity ? firstPass : noPass).stored);
     const Extent extent = extentOf(input, somePhotons(stages.tracing, stored));
     stages.radius = widestRadius(extent, photons, settings.nearest);
     if (!byDensity) return;
     const uint levels = mostLevels(extent, stages.radius);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
-    stages.field.emplace(gpu).measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
+    stages.field->measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
         stages.radius = stages.typicalRadius();
         stages.field.reset();

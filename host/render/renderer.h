@@ -53,6 +53,7 @@ public:
     PhotonLedger photons(MapKind kind) const;
 
 private:
+    std::optional<MapStages> construct(const Scene& scene, MapKind kind);
     void checkRadius(MapStages& stages, const Scene& scene, std::string_view name);
     void measureRadii(MapStages& stages, const Scene& scene, uint photons, float perDisc, bool oneRadius);
     void constructCamera();
