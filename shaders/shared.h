@@ -119,7 +119,7 @@ const uint LEAF_SHIFT = 27u;
 const uint LEAF_FIRST = 0x07ffffffu;
 BUFFER(Node)
 
-/// A primitive as traversal reads it, in the order of the leaves (spatial splits may repeat one):
+/// A primitive as traversal reads it, in the order of the leaves:
 /// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x, whose point next to the
 /// origin of coordinates is c.
 struct Leaf {

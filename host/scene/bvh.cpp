@@ -34,10 +34,6 @@ Bounds toBounds(const RTCBounds& box) {
     return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
 }
 
-RTCBounds toEmbree(const Bounds& box) {
-    return {box.low.x, box.low.y, box.low.z, 0, box.high.x, box.high.y, box.high.z, 0};
-}
-
 // ---- What Embree calls back ----
 
 void* createNode(RTCThreadLocalAllocator allocator, unsigned int, void*) {
@@ -60,22 +56,7 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     assert(count <= largestLeaf);
     for (std::size_t i = 0; i < count; ++i) leaf->ids[leaf->count++] = primitives[i].primID;
 
-    // Several parts of one primitive may end in the same leaf, which lists it once.
-    std::sort(leaf->ids, leaf->ids + leaf->count);
-    leaf->count = static_cast<uint>(std::unique(leaf->ids, leaf->ids + leaf->count) - leaf->ids);
     return leaf;
-}
-
-void splitPrimitive(const RTCBuildPrimitive* primitive, unsigned int axis, float position, RTCBounds* below,
-                    RTCBounds* above, void* user) {
-    const auto& input = *static_cast<const BuildInput*>(user);
-    const Bounds box{{primitive->lower_x, primitive->lower_y, primitive->lower_z},
-                     {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
-    const bool sphere = primitive->primID >= input.triangleCount;
-    const SplitBoxes parts =
-        splitBoxes(input.primitives[primitive->primID], sphere, box, static_cast<int>(axis), position, input.exponent);
-    *below = toEmbree(parts.below);
-    *above = toEmbree(parts.above);
 }
 
 // ---- From Embree's tree to arrays ----
@@ -105,8 +86,6 @@ public:
 private:
     uint appendLeaf(const BuildNode& leaf) {
         const auto first = static_cast<uint>(bvh.leaves.size());
-        if (first > LEAF_FIRST - largestLeaf)
-            throw InputError(fmt::format("the scene has too many primitives; allowed are about {}", LEAF_FIRST / 2));
         for (uint i = 0; i < leaf.count; ++i) {
             const Primitive& primitive = primitives[leaf.ids[i]];
             bvh.leaves.push_back({primitive.a, primitive.b, primitive.c, leaf.ids[i]});
@@ -149,7 +128,7 @@ Bounds boundsOf(std::span<const Primitive> primitives, uint triangleCount) {
 
 std::vector<RTCBuildPrimitive> buildPrimitives(const BuildInput& input) {
     std::vector<RTCBuildPrimitive> boxes;
-    boxes.reserve(2 * input.primitives.size() + 16); // room for what spatial splits add
+    boxes.reserve(input.primitives.size());
     for (std::size_t i = 0; i < input.primitives.size(); ++i) {
         const auto id = static_cast<uint>(i);
         const Bounds box = scaled(boxOf(input.primitives[i], id >= input.triangleCount), -input.exponent);
@@ -160,19 +139,18 @@ std::vector<RTCBuildPrimitive> buildPrimitives(const BuildInput& input) {
 
 RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& boxes, BuildInput& input) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
+    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM; // spatial splits take ten times as long, and rays gain nothing
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = 64;
     arguments.maxLeafSize = largestLeaf;
     arguments.bvh = bvh;
     arguments.primitives = boxes.data();
     arguments.primitiveCount = boxes.size();
-    arguments.primitiveArrayCapacity = boxes.capacity();
+    arguments.primitiveArrayCapacity = boxes.size();
     arguments.createNode = createNode;
     arguments.setNodeChildren = setChildren;
     arguments.setNodeBounds = setBoxes;
     arguments.createLeaf = createLeaf;
-    arguments.splitPrimitive = splitPrimitive;
     arguments.userPtr = &input;
     return arguments;
 }

@@ -13,7 +13,7 @@ using glm::dvec3;
 
 namespace {
 
-constexpr std::size_t mostPrimitives = LEAF_FIRST / 2; // spatial splits double them at most
+constexpr std::size_t mostPrimitives = LEAF_FIRST; // indices of leaves have that many bits
 
 Transform readTransform(Reader& shape) {
     const auto steps = shape.find("transform");
