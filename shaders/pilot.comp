@@ -17,7 +17,7 @@ float photonsInDisc(vec3 position, uint level) {
     cells.low = 2 * cells.first;
     cells.high = cells.low + 3;
     uint photons = 0u;
-    for (uint corner = 0u; corner < 8u; corner++) {
+    [[dont_unroll]] for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(args.map, cells, corner);
         photons += range.y - range.x;
     }
@@ -27,15 +27,14 @@ float photonsInDisc(vec3 position, uint level) {
 // Binary logarithm of the radius in units of the map's. The finest level decides whose disc holds enough; within it the
 // radius follows the density, but not below the next level's, whose disc holds too few.
 float logRadius(vec3 position) {
+    float photons = 0.0;
     uint level = 0u;
-    float photons = photonsInDisc(position, 0u);
-    while (level < args.map.levels) {
-        float finer = photonsInDisc(position, level + 1u);
-        if (finer < args.perDisc) break;
+    for (; level <= args.map.levels; level++) {
+        float finer = photonsInDisc(position, level);
+        if (level > 0u && finer < args.perDisc) break;
         photons = finer;
-        level++;
     }
-    return clamp(0.5 * log2(args.perDisc / photons), -1.0, 0.0) - float(level);
+    return clamp(0.5 * log2(args.perDisc / photons), -1.0, 0.0) - float(level - 1u);
 }
 
 void main() {
