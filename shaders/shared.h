@@ -180,7 +180,7 @@ struct Light {
 };
 BUFFER(Light)
 
-/// A bounding sphere of a specular shape, or of a part of one, at which caustic photons are aimed.
+/// A bounding sphere of a specular shape, at which caustic photons are aimed.
 struct Target {
     vec3 center;
     float radius;

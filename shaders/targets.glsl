@@ -1,5 +1,4 @@
-// Aiming photons at the bounding spheres of specular shapes and of their parts (after the projection map of Jensen & Christensen
-// 1995).
+// Aiming photons at the bounding spheres of specular shapes (the projection map of Jensen & Christensen 1995).
 
 // 1 - cos of the half angle under which a sphere at distance sqrt(distance2) > radius is seen; no cancellation.
 float coneHeight(float radius, float distance2) {

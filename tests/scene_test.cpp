@@ -1,8 +1,6 @@
 /// The scene loader: what it makes of cameras, materials, shapes, transforms, meshes and lights.
-#include "host_rays.h"
 #include "scene/bounding_sphere.h"
 #include "scene/scene.h"
-#include "scene/targets.h"
 #include "scene_text.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -282,92 +280,6 @@ TEST(BoundingSphere, HoldsAllPointsAndIsSmall) {
     }
     const std::vector<vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     EXPECT_NEAR(boundingSphere(square).radius, std::sqrt(0.5f), 1e-5f);
-}
-
-/// A torus about z, or with `minor` = `major` = 0.5 nearly a ball.
-std::vector<TrianglePoints> torus(float major, float minor, float scale = 1) {
-    const uint around = 64, across = 16;
-    const auto at = [&](uint i, uint j) {
-        const float u = 2 * pi * float(i % around) / float(around), v = 2 * pi * float(j % across) / float(across);
-        return scale * vec3((major + minor * std::cos(v)) * std::cos(u), (major + minor * std::cos(v)) * std::sin(u), minor * std::sin(v));
-    };
-    std::vector<TrianglePoints> triangles;
-    for (uint i = 0; i < around; i++)
-        for (uint j = 0; j < across; j++) {
-            triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-            triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    return triangles;
-}
-
-std::vector<Target> targetsOf(std::vector<TrianglePoints>& triangles, std::size_t most) {
-    const std::vector<std::span<TrianglePoints>> shapes{triangles};
-    return targetsAround(shapes, most);
-}
-
-void expectEnclosed(const std::vector<TrianglePoints>& triangles, const std::vector<Target>& targets) {
-    for (const TrianglePoints& triangle : triangles)
-        ASSERT_TRUE(std::ranges::any_of(targets, [&](const Target& target) {
-            return std::ranges::all_of(triangle, [&](vec3 p) { return glm::distance(p, target.center) <= target.radius; });
-        }));
-}
-
-/// Of random lines through spheres, in proportion to their squared radii.
-double shareOfHits(const std::vector<TrianglePoints>& triangles, const std::vector<Target>& targets) {
-    std::mt19937 random{1};
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> uniform;
-    std::vector<double> squares;
-    for (const Target& target : targets) squares.push_back(double{target.radius} * target.radius);
-    std::discrete_distribution<std::size_t> choose(squares.begin(), squares.end());
-    double hits = 0;
-    const int lines = 2000;
-    for (int i = 0; i < lines; i++) {
-        const Target& target = targets[choose(random)];
-        const dvec3 along = glm::normalize(dvec3{normal(random), normal(random), normal(random)});
-        const dvec3 across = glm::normalize(glm::cross(along, dvec3{normal(random), normal(random), normal(random)}));
-        const dvec3 origin = dvec3{target.center} + std::sqrt(uniform(random)) * target.radius * across - 10.0 * along;
-        hits += std::ranges::any_of(triangles, [&](const TrianglePoints& t) { return intersect(origin, along, t[0], t[1], t[2], false) < infinity; });
-    }
-    return hits / lines;
-}
-
-TEST(TargetsAround, ThinShapesInSmallSpheres) {
-    std::vector<TrianglePoints> ring = torus(1, 0.1f);
-    const std::vector<Target> whole = targetsOf(ring, 1), parts = targetsOf(ring, 16);
-    ASSERT_EQ(whole.size(), 1u);
-    ASSERT_EQ(parts.size(), 16u);
-    expectEnclosed(ring, whole);
-    expectEnclosed(ring, parts);
-    const double share = shareOfHits(ring, whole);
-    EXPECT_GT(shareOfHits(ring, parts), 1.4 * share) << share;
-}
-
-TEST(TargetsAround, FullSpheresStayWhole) {
-    std::vector<TrianglePoints> thick = torus(0.5f, 0.5f);
-    EXPECT_EQ(targetsOf(thick, 16).size(), 1u);
-}
-
-TEST(TargetsAround, OneForEachShapeAtLeast) {
-    std::vector<TrianglePoints> a = torus(1, 0.1f), b = torus(2, 0.1f), c(5, TrianglePoints{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::span<TrianglePoints>> shapes{a, b, c};
-    EXPECT_EQ(targetsAround(shapes, 0).size(), 3u);
-    const std::vector<Target> targets = targetsAround(shapes, 16);
-    EXPECT_EQ(targets.size(), 16u);
-    for (const auto& shape : {a, b, c}) expectEnclosed(shape, targets);
-}
-
-// Powers of two change no bit but the exponent.
-TEST(TargetsAround, ScalesWithTheScene) {
-    for (const float scale : {0x1p-26f, 0x1p30f}) {
-        std::vector<TrianglePoints> ring = torus(1, 0.1f), scaled = torus(1, 0.1f, scale);
-        const std::vector<Target> expected = targetsOf(ring, 16), found = targetsOf(scaled, 16);
-        ASSERT_EQ(found.size(), expected.size());
-        for (std::size_t i = 0; i < found.size(); i++) {
-            EXPECT_EQ(found[i].center, scale * expected[i].center);
-            EXPECT_EQ(found[i].radius, scale * expected[i].radius);
-        }
-    }
 }
 
 } // namespace

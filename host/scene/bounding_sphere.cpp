@@ -36,8 +36,7 @@ Sphere smallSphere(std::span<const vec3> points) {
     grow(best, points);
 
     Sphere trial = best;
-    const int rounds = points.size() < 10'000 ? 16 : 2;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < 16; ++round) {
         trial.radius *= 0.95;
         grow(trial, points);
         if (trial.radius < best.radius) best = trial;
@@ -51,9 +50,9 @@ Target boundingSphere(std::span<const vec3> points) {
     const vec3 center{smallSphere(points).center};
     const double radius = glm::distance(dvec3{farthest(points, dvec3{center})}, dvec3{center});
 
-    // A distance computed in float errs by the roundings of differences and of a sum of squares.
-    constexpr double ulps = 8 * double{std::numeric_limits<float>::epsilon()};
-    return {center, static_cast<float>(radius * (1 + ulps) + ulps * glm::length(dvec3{center}))};
+    // A distance computed in float errs by the rounding of a sum of squares: by less than 4 ulps.
+    constexpr double margin = 1 + 8 * double{std::numeric_limits<float>::epsilon()};
+    return {center, static_cast<float>(radius * margin)};
 }
 
 } // namespace vkpm

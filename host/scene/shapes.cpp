@@ -1,5 +1,6 @@
 /// Shapes of a scene file: spheres, rectangles and meshes.
 #include "scene/shapes.h"
+#include "scene/bounding_sphere.h"
 #include "scene/box.h"
 #include "scene/text.h"
 #include <algorithm>
@@ -13,10 +14,6 @@ using glm::dvec3;
 namespace {
 
 constexpr std::size_t mostPrimitives = LEAF_FIRST; // indices of leaves have that many bits
-
-// Each photon looks at all targets. Rectangles are made of so many pieces a side, to be split between targets.
-constexpr std::size_t mostTargets = 16;
-constexpr uint rectanglePieces = 8;
 
 Transform readTransform(Reader& shape) {
     const auto steps = shape.find("transform");
@@ -75,11 +72,6 @@ void ShapeLoader::add(Reader shape) {
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
     scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
-    std::vector<std::span<TrianglePoints>> shapes;
-    for (std::vector<TrianglePoints>& triangles : specular) shapes.emplace_back(triangles);
-    const std::size_t known = std::min(mostTargets, scene.targets.size());
-    const std::vector<Target> more = targetsAround(shapes, mostTargets - known);
-    scene.targets.insert(scene.targets.end(), more.begin(), more.end());
 }
 
 ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
@@ -164,14 +156,7 @@ void ShapeLoader::addRectangle(Reader& shape) {
     const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
     addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
     addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
-    if (!isSpecular(surface)) return;
-    std::vector<TrianglePoints>& pieces = specular.emplace_back();
-    for (uint i = 0; i < rectanglePieces; i++)
-        for (uint j = 0; j < rectanglePieces; j++) {
-            const auto at = [&](uint x, uint y) { return a + float(x) / float(rectanglePieces) * u + float(y) / float(rectanglePieces) * v; };
-            pieces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-            pieces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
+    addTarget(surface, std::array{a, a + u, a + u + v, a + v});
 }
 
 const Mesh& ShapeLoader::meshOf(Reader& shape) {
@@ -203,9 +188,11 @@ void ShapeLoader::addMesh(Reader& shape) {
         shape.warn(scene.warnings,
                    fmt::format("{} of {} triangles have no area and were dropped", dropped, mesh.triangles.size()));
 
-    if (!isSpecular(surface)) return;
-    std::vector<TrianglePoints>& triangles = specular.emplace_back();
-    for (const Primitive& p : std::span(scene.primitives).subspan(first)) triangles.push_back({p.a, p.b, p.c});
+    std::vector<vec3> points;
+    for (std::size_t i = first; i < scene.primitives.size(); ++i)
+        for (const vec3 point : {scene.primitives[i].a, scene.primitives[i].b, scene.primitives[i].c})
+            points.push_back(point);
+    addTarget(surface, points);
 }
 
 void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
@@ -261,6 +248,10 @@ uint ShapeLoader::addNormals(const Primitive& primitive, const std::array<vec3, 
                              unitNormal(transform.normal(normals[1]), primitive),
                              unitNormal(transform.normal(normals[2]), primitive)});
     return static_cast<uint>(scene.normals.size() - 1);
+}
+
+void ShapeLoader::addTarget(const Surface& surface, std::span<const vec3> points) {
+    if (isSpecular(surface)) scene.targets.push_back(boundingSphere(points));
 }
 
 } // namespace vkpm

@@ -3,7 +3,6 @@
 #include "scene/mesh.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
-#include "scene/targets.h"
 #include "scene/transform.h"
 #include <map>
 #include <span>
@@ -20,7 +19,7 @@ public:
     std::vector<glm::dvec3> somePlaces(Reader shape);
     /// Adds one element of "shapes", relative to the scene's origin. Throws InputError.
     void add(Reader shape);
-    /// Appends the spheres, which follow all triangles, and the targets.
+    /// Appends the spheres, which follow all triangles.
     void finish();
 
 private:
@@ -46,13 +45,13 @@ private:
     void addFlat(const Reader& shape, const Primitive& triangle);
     uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area);
     uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
+    void addTarget(const Surface& surface, std::span<const vec3> points);
     bool isSpecular(const Surface& surface) const;
 
     Scene& scene;
     const std::map<std::string, uint>& materials;
     std::map<std::pair<std::filesystem::path, Smoothness>, Mesh> meshes; // by file, each loaded once
     std::vector<Primitive> spheres;
-    std::vector<std::vector<TrianglePoints>> specular; // by shape
     uint black = NONE;
 };
 
