@@ -31,16 +31,20 @@ bool isTwoSided(Light light) {
     return hasTwoSidedLights != 0u && light.twoSided != 0u;
 }
 
+// The point a + place.x u + place.y v of a rectangle or triangle.
+LightPoint flatLightAt(Light light, vec2 place) {
+    // A shadow ray may hit a triangle of the light anywhere along it, so all components of its place count.
+    vec3 magnitude = vec3(maxComponent(abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v)));
+    return LightPoint(light.a + place.x * light.u + place.y * light.v, magnitude, normalize(cross(light.u, light.v)));
+}
+
 // A point of a light, uniform over area.
 LightPoint sampleLight(Light light, vec2 u) {
     if (isSphere(light)) {
         vec3 n = uniformSphere(u);
         return LightPoint(light.a + light.u.x * n, abs(light.a) + light.u.x, n);
     }
-    vec2 w = isTriangle(light) ? uniformTriangle(u) : u;
-    // A shadow ray may hit a triangle of the light anywhere along it, so all components of its place count.
-    vec3 magnitude = vec3(maxComponent(abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v)));
-    return LightPoint(light.a + w.x * light.u + w.y * light.v, magnitude, normalize(cross(light.u, light.v)));
+    return flatLightAt(light, isTriangle(light) ? uniformTriangle(u) : u);
 }
 
 // Radiance that a light sends in direction w from where its normal is n.

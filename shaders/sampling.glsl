@@ -19,6 +19,21 @@ vec2 unitCircle(float u) {
     return (turned & 2u) != 0u ? -p : p;
 }
 
+// The angle of a point from the x axis, in [0, pi]; p.y >= 0 (polynomial of Cephes, Moshier 1992). Drivers' atan may be off by
+// 4096 ulps.
+float angleAbove(vec2 p) {
+    float x = abs(p.x);
+    float high = max(x, p.y);
+    float t = high > 0.0 ? min(x, p.y) / high : 0.0;
+    bool wide = t > 0.41421356;
+    if (wide) t = (t - 1.0) / (t + 1.0);
+    float z = t * t;
+    float angle = t + t * z * (-3.33329491539e-1 + z * (1.99777106478e-1 + z * (-1.38776856032e-1 + z * 8.05374449538e-2)));
+    if (wide) angle += PI / 4.0;
+    if (p.y > x) angle = PI / 2.0 - angle;
+    return p.x < 0.0 ? PI - angle : angle;
+}
+
 // A point of the unit disc, uniform over area (Shirley & Chiu 1997).
 vec2 uniformDisc(vec2 u) {
     vec2 p = 2.0 * u - 1.0;

@@ -13,6 +13,7 @@
 #include "surface.glsl"
 #include "material.glsl"
 #include "light.glsl"
+#include "seen.glsl"
 #include "columns.glsl"
 #include "features.glsl"
 #include "direct.glsl"

@@ -8,6 +8,7 @@
 #include "frame.glsl"
 #include "offset.glsl"
 #include "light.glsl"
+#include "seen.glsl"
 #include "columns.glsl"
 #include "features.glsl"
 #include "direct.glsl"

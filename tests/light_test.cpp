@@ -143,6 +143,84 @@ TEST(Light, SpheresAreSeenUniformlyByAngle) {
     }
 }
 
+// A flat light about the z axis, at height z over the origin.
+struct FlatLight {
+    double x, y, z, width, height;
+    uint kind = LIGHT_RECTANGLE;
+
+    Light light() const {
+        Light l = rectangle({float(x), float(y), float(z)}, {0, float(height), 0}, {float(width), 0, 0});
+        l.kind = kind;
+        if (kind == LIGHT_TRIANGLE) l.area /= 2;
+        return l;
+    }
+
+    // The solid angle of the rectangle between the corner and (x + s width, y + t height), as seen from the origin, less what does
+    // not depend on both.
+    double toCorner(double s, double t) const {
+        const double cx = x + s * width, cy = y + t * height;
+        return std::atan2(cx * cy, z * std::sqrt(cx * cx + cy * cy + z * z));
+    }
+
+    // What one rounding of the origin changes in the direction to the nearest side.
+    double rounding() const {
+        return 0x1p-23 / std::hypot(z, std::min({std::abs(x), std::abs(y), std::abs(x + width), std::abs(y + height)}));
+    }
+
+    double cell(int i, int j, int side) const {
+        const double s = double(i) / side, t = double(j) / side, step = 1.0 / side;
+        return toCorner(s + step, t + step) - toCorner(s, t + step) - toCorner(s + step, t) + toCorner(s, t);
+    }
+
+    // Of a triangle by cells as fine as the diagonal wants.
+    double solidAngle() const {
+        if (kind == LIGHT_RECTANGLE) return cell(0, 0, 1);
+        const dvec3 a{x, y, z}, b{x + width, y, z}, c{x, y + height, z};
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        const double below = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+        return 2 * std::atan2(std::abs(glm::dot(a, glm::cross(b, c))), below);
+    }
+};
+
+// Seen from before the middle, from close to it, to an edge, to a corner and to the plane beside it, from a large side, and from as
+// far as points are chosen by angle: each cell of the light gets as many points as its solid angle says.
+TEST(Light, FlatLightsAreSeenUniformlyByAngle) {
+    const int side = 8;
+    const uint count = 1 << 18;
+    for (const uint kind : {LIGHT_RECTANGLE, LIGHT_TRIANGLE})
+        for (FlatLight flat : {FlatLight{-0.5, -0.5, 1, 1, 1}, {-0.3, -0.4, 0.01, 1, 1}, {-0.3, -0.4, 1e-5, 1, 1}, {-0.5, 0.001, 0.01, 1, 1}, {0.001, 0.002, 0.005, 1, 1},
+                               {0.5, -0.5, 0.02, 1, 2}, {-0.01, -10, 0.1, 0.02, 20}, {-0.5, 0.5, 2, 1, 1}}) {
+            flat.kind = kind;
+            const Light light = flat.light();
+            const double whole = flat.solidAngle();
+            std::vector<double> found(side * side);
+            for (const SeenValues& y : seenPoints(light, vec3{0}, count)) {
+                ASSERT_NEAR(y.solidAngle, whole, 1e-6 * whole + 4 * flat.rounding()) << kind << " z " << flat.z;
+                const double s = (double{y.position.x} - flat.x) / flat.width, t = (double{y.position.y} - flat.y) / flat.height;
+                ASSERT_TRUE(s >= -1e-6 && t >= -1e-6 && (kind == LIGHT_TRIANGLE ? s + t : std::max(s, t)) <= 1 + 1e-6) << s << " " << t;
+                found[std::min(int(std::max(s, 0.0) * side), side - 1) + side * std::min(int(std::max(t, 0.0) * side), side - 1)]++;
+            }
+            for (int i = 0; i < side; i++)
+                for (int j = 0; j < (kind == LIGHT_TRIANGLE ? side - 1 - i : side); j++) {
+                    const double expected = count * flat.cell(i, j, side) / whole;
+                    EXPECT_NEAR(found[i + side * j], expected, 5 * std::sqrt(expected) + 2) << kind << " z " << flat.z << " cell " << i << ", " << j;
+                }
+        }
+}
+
+// Where a light has no solid angle, in its plane or at its corners, nothing arrives, and nothing is infinite.
+TEST(Light, FlatLightsInTheirPlane) {
+    for (const uint kind : {LIGHT_RECTANGLE, LIGHT_TRIANGLE})
+        for (const vec3 origin : {vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{1, 1, 0}, vec3{0.5f, 0.5f, 0}, vec3{0.5f, 0, 0}, vec3{2, 0.25f, 0}, vec3{0, 0, 1e-20f}}) {
+            Light light = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+            light.kind = kind;
+            for (const SeenValues& y : seenPoints(light, origin, 1 << 12)) {
+                ASSERT_TRUE(std::isfinite(y.solidAngle) && y.solidAngle >= 0 && y.solidAngle < 6.2832) << kind << " " << origin.x;
+                ASSERT_TRUE(glm::all(glm::greaterThanEqual(y.position, vec3(0))) && glm::all(glm::lessThanEqual(y.position, vec3(1))));
+            }
+        }
+}
+
 // The irradiance below a light, in closed form: of a sphere pi sin^2 cos (its rim's and its middle's angles), of a unit square seen
 // from a distance of one under its centre 0.7522746885; from within a sphere everything is seen, a solid angle of 4 pi.
 TEST(Light, SeenPointsGiveTheIrradiance) {

@@ -2,6 +2,7 @@
 #include "judge.h"
 #include "map.h"
 #include "precision.h"
+#include "scene_on_device.h"
 #include "scene/box.h"
 #include "render/radius.h"
 #include <gtest/gtest.h>
@@ -260,6 +261,33 @@ TEST(Precision, RadiusSchedule) {
     }
     judge(precision, 1.01, 0.5);
     fmt::print("| (pass by pass in floats) | after 1,000,000 passes | {:.3g} | | | |\n", drift * 0x1p23);
+}
+
+/// The solid angle of the square [-0.5, 0.5]^2 of the plane z = 0.
+double exactSolidAngle(const Inputs<3>& x) {
+    double sum = 0;
+    for (const double s : {-0.5, 0.5})
+        for (const double t : {-0.5, 0.5}) {
+            const double w = s - x[0], h = t - x[1];
+            sum += (s * t > 0 ? 1 : -1) * std::atan2(w * h, std::abs(x[2]) * std::sqrt(w * w + h * h + x[2] * x[2]));
+        }
+    return sum;
+}
+
+TEST(Precision, SolidAngle) {
+    Random random(6);
+    std::vector<VectorPair> xs;
+    for (int i = 0; i < 100'000; i++)
+        xs.push_back({{random.between(-1.5f, 1.5f), random.between(-1.5f, 1.5f), std::exp2(random.between(-12, 0.5f))}, {0.5f, 0.5f, 0}});
+    Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
+    scene.lights = {{.a = {-0.5f, -0.5f, 0}, .u = {1, 0, 0}, .v = {0, 1, 0}, .radiance = vec3(1), .kind = LIGHT_RECTANGLE, .area = 1, .probability = 1}};
+    scene.lightCdf = {1};
+    const TestScene onDevice(scene);
+    const auto ys = map<SeenValues>("seen_point", xs, {}, onDevice.context());
+    Precision precision("solid angle of a square", "2^-12 to 2 of its side away");
+    for (std::size_t i = 0; i < xs.size(); i++)
+        precision.add(double{ys[i].solidAngle}, std::array{double{xs[i].a.x}, double{xs[i].a.y}, double{xs[i].a.z}}, exactSolidAngle);
+    judge(precision, 1000, 1);
 }
 
 TEST(Precision, Sampling) {

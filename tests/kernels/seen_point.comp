@@ -5,10 +5,8 @@
 #include "random.glsl"
 #include "sampling.glsl"
 #include "frame.glsl"
-#include "offset.glsl"
 #include "light.glsl"
-#include "features.glsl"
-#include "direct.glsl"
+#include "seen.glsl"
 
 SeenValues values(SeenPoint p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.solidAngle); }
 
