@@ -9,8 +9,6 @@ struct Ray {
     vec3 shear;   // Woop's S: direction's two minor components over the major one, and 1 / major
     uvec3 axes;   // minor, minor, and that of the largest component of the direction, in cyclic order
     vec3 permuted; // origin in the order of the axes
-    uvec3 near;    // which of a box's six numbers (low, high) are its near planes
-    uvec3 far;
 };
 
 // Puts the major axis last; a cyclic exchange, so that orientation stays.
@@ -25,23 +23,19 @@ Ray makeRay(vec3 origin, vec3 direction) {
     vec3 p = permute(direction, axis);
     vec3 safe = mix(direction, vec3(tiny), lessThan(a, vec3(tiny)));
     uvec3 axes = axis == 2u ? uvec3(0u, 1u, 2u) : axis == 0u ? uvec3(1u, 2u, 0u) : uvec3(2u, 0u, 1u);
-    return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axes, permute(origin, axis),
-        uvec3(0u, 1u, 2u) + 3u * uvec3(lessThan(safe, vec3(0.0))), uvec3(3u, 4u, 5u) - 3u * uvec3(lessThan(safe, vec3(0.0))));
+    return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axes, permute(origin, axis));
 }
 
-// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013). The near planes are those
-// that the ray's direction meets first.
-float intersectSlabs(Ray ray, vec3 nearPlanes, vec3 farPlanes, float tMax) {
-    vec3 near = (nearPlanes - ray.origin) * ray.inverse;
-    vec3 far = (farPlanes - ray.origin) * ray.inverse;
-    float enter = max(max(near.x, near.y), max(near.z, 0.0));
-    float leave = min(min(far.x, far.y), min(far.z, tMax)) * 1.0000008;
-    return enter <= leave ? enter : INFINITY;
-}
-
+// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013). Numbers that are not negative
+// are in the order of their bits, and integers want no care for NaN: for this a driver may need three instructions a comparison.
+// Where a number is negative the box ends behind the ray, and so it stays whichever of them is taken.
 float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
     bvec3 backwards = lessThan(ray.inverse, vec3(0.0));
-    return intersectSlabs(ray, mix(low, high, backwards), mix(high, low, backwards), tMax);
+    ivec3 near = floatBitsToInt((mix(low, high, backwards) - ray.origin) * ray.inverse);
+    ivec3 far = floatBitsToInt((mix(high, low, backwards) - ray.origin) * ray.inverse);
+    float enter = intBitsToFloat(max(max(near.x, near.y), max(near.z, 0)));
+    float leave = intBitsToFloat(min(min(far.x, far.y), min(far.z, floatBitsToInt(tMax)))) * 1.0000008;
+    return enter <= leave ? enter : INFINITY;
 }
 
 // Watertight (Woop, Benthin & Wald 2013): neighbours compute a shared edge from the same products,

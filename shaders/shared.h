@@ -113,7 +113,6 @@ struct Node {
     uint left;
     uint right;
 };
-const uint NODE_WORDS = 14u; // floats and indices of a node
 const uint LEAF = 0x80000000u;
 const uint LEAF_SHIFT = 27u;
 const uint LEAF_FIRST = 0x07ffffffu;
@@ -128,8 +127,16 @@ struct Leaf {
     vec3 c;
     uint id;
 };
-const uint LEAF_WORDS = 10u;
 BUFFER(Leaf)
+
+/// A triangle's Leaf by the components of its vertices.
+struct LeafNumbers {
+    float a[3];
+    float b[3];
+    float c[3];
+    uint id;
+};
+BUFFER(LeafNumbers)
 
 /// A primitive as shading reads it, in the order of the scene: triangles first, then spheres.
 /// A triangle's geometric normal is that of (b - a) x (c - a); a sphere's points outward.

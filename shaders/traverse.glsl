@@ -1,9 +1,5 @@
 // The closest hit, or any hit, of a ray with the scene; needs intersect.glsl.
 
-vec3 loadVec3(floatPtr numbers, uvec3 at) {
-    return vec3(numbers.at[at.x], numbers.at[at.y], numbers.at[at.z]);
-}
-
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
 void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit hit) {
@@ -15,36 +11,49 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit h
             LeafPtr(scene.leaves).at[slot].c);
     } else {
         // Loads in the order of the ray's axes save the exchange.
-        floatPtr numbers = floatPtr(scene.leaves);
-        uvec3 at = LEAF_WORDS * slot + ray.axes;
-        vec3 a = loadVec3(numbers, at);
-        vec3 b = loadVec3(numbers, at + 3u);
-        vec3 c = loadVec3(numbers, at + 6u);
+        LeafNumbersPtr leaves = LeafNumbersPtr(scene.leaves);
+        uvec3 i = ray.axes;
+        vec3 a = vec3(leaves.at[slot].a[i.x], leaves.at[slot].a[i.y], leaves.at[slot].a[i.z]);
+        vec3 b = vec3(leaves.at[slot].b[i.x], leaves.at[slot].b[i.y], leaves.at[slot].b[i.z]);
+        vec3 c = vec3(leaves.at[slot].c[i.x], leaves.at[slot].c[i.y], leaves.at[slot].c[i.z]);
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
     if (t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive))) hit = Hit(t, id, weights);
 }
 
-// Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax.
+// Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
+// registers, newest first; when a ninth comes the older four move to memory, together, as each move there costs what a node does.
 Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) {
-    uint stack[stackSize];
-    uint depth = 0u;
+    uint memory[stackSize];
+    uint moved = 0u; // how many are in memory
+    uvec4 newer = uvec4(0u);
+    uvec4 older = uvec4(0u);
+    uint held = 0u; // how many are in registers
     uint node = 0u;
     Hit hit = Hit(tMax, NONE, vec2(0.0));
     NodePtr nodes = NodePtr(scene.nodes);
-    floatPtr planes = floatPtr(scene.nodes);
     while (true) {
         bool finished = false; // with this subtree
         if ((node & LEAF) == 0u) {
-            uvec3 near = NODE_WORDS * node + ray.near;
-            uvec3 far = NODE_WORDS * node + ray.far;
-            float left = intersectSlabs(ray, loadVec3(planes, near), loadVec3(planes, far), hit.t);
-            float right = intersectSlabs(ray, loadVec3(planes, near + 6u), loadVec3(planes, far + 6u), hit.t);
+            float left = intersectBox(ray, nodes.at[node].leftLow, nodes.at[node].leftHigh, hit.t);
+            float right = intersectBox(ray, nodes.at[node].rightLow, nodes.at[node].rightHigh, hit.t);
             uint leftChild = nodes.at[node].left;
             uint rightChild = nodes.at[node].right;
             bool swap = right < left;
-            if (max(left, right) < INFINITY) stack[depth++] = swap ? leftChild : rightChild;
-            if (min(left, right) < INFINITY) node = swap ? rightChild : leftChild;
+            if (left < INFINITY && right < INFINITY) {
+                if (stackSize > 8u && held == 8u) {
+                    memory[moved] = older.w;
+                    memory[moved + 1u] = older.z;
+                    memory[moved + 2u] = older.y;
+                    memory[moved + 3u] = older.x;
+                    moved += 4u;
+                    held = 4u;
+                }
+                if (stackSize > 4u) older = uvec4(newer.w, older.xyz);
+                newer = uvec4(swap ? leftChild : rightChild, newer.xyz);
+                held++;
+            }
+            if (left < INFINITY || right < INFINITY) node = swap ? rightChild : leftChild;
             else finished = true;
         }
         // One primitive of a leaf at a time: for lanes that diverge a loop of its own costs more than it saves.
@@ -55,8 +64,16 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
             else finished = true;
         }
         if (finished) {
-            if (depth == 0u) break;
-            node = stack[--depth];
+            if (held == 0u) {
+                if (stackSize <= 8u || moved == 0u) break;
+                moved -= 4u;
+                newer = uvec4(memory[moved + 3u], memory[moved + 2u], memory[moved + 1u], memory[moved]);
+                held = 4u;
+            }
+            node = newer.x;
+            newer = uvec4(newer.yzw, older.x);
+            if (stackSize > 4u) older = uvec4(older.yzw, 0u);
+            held--;
         }
     }
     return hit;

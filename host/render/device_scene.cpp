@@ -4,7 +4,7 @@
 
 namespace vkpm {
 
-static_assert(sizeof(Node) == NODE_WORDS * sizeof(float) && sizeof(Leaf) == LEAF_WORDS * sizeof(float));
+static_assert(sizeof(Leaf) == sizeof(LeafNumbers));
 
 template <class T> static Buffer<T> uploaded(Gpu& gpu, const char* name, const std::vector<T>& data) {
     return Buffer<T>(gpu, name, std::span<const T>(data));
