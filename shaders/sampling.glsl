@@ -57,6 +57,12 @@ vec3 uniformSphere(vec2 u) {
     return vec3(r * unitCircle(u.y), z);
 }
 
+// 1 - cos of the half angle under which a sphere at distance sqrt(distance2) > radius is seen; no cancellation.
+float coneHeight(float radius, float distance2) {
+    float sin2 = radius * radius / distance2;
+    return sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2)));
+}
+
 // A direction within a cone about +z, uniform over solid angle; `height` is 1 - cos of its half angle.
 vec3 uniformCone(vec2 u, float height) {
     float h = u.x * height;

@@ -20,8 +20,7 @@ SeenPoint seenInCone(Light light, vec3 origin, vec2 u) {
     vec3 toCenter = light.a - origin;
     float distance2 = dot(toCenter, toCenter);
     float radius = light.u.x;
-    float sine2 = radius * radius / distance2;
-    float height = sine2 / (1.0 + sqrt(max(0.0, 1.0 - sine2)));
+    float height = coneHeight(radius, distance2);
     vec3 w = toWorld(uniformCone(u, height), toCenter * inversesqrt(distance2));
     float along = dot(toCenter, w);
     vec3 across = toCenter - along * w;
@@ -60,7 +59,7 @@ struct SphericalTriangle {
     bool swapped;  // whether b and d are
     vec3 bisector; // of apex and b: the sum of their directions
     vec3 diagonal; // the same of b and d
-    vec2 halfway; // cosine and sine of half its solid angle, times the same positive number
+    vec2 halfway;  // cosine and sine of half its solid angle, times the same positive number
     float angle;   // half its solid angle
 };
 

@@ -1,11 +1,5 @@
 // Aiming photons at the bounding spheres of specular shapes (the projection map of Jensen & Christensen 1995).
 
-// 1 - cos of the half angle under which a sphere at distance sqrt(distance2) > radius is seen; no cancellation.
-float coneHeight(float radius, float distance2) {
-    float sin2 = radius * radius / distance2;
-    return sin2 / (1.0 + sqrt(1.0 - sin2));
-}
-
 // Solid angle that a target gets: that of its cone, or the hemisphere for a point inside it.
 float targetSolidAngle(Target target, vec3 point) {
     vec3 d = target.center - point;

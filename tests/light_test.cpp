@@ -172,7 +172,7 @@ struct FlatLight {
         return toCorner(s + step, t + step) - toCorner(s, t + step) - toCorner(s + step, t) + toCorner(s, t);
     }
 
-    // Of a triangle by cells as fine as the diagonal wants.
+    // Of a triangle by Van Oosterom & Strackee (1983, eq. 8).
     double solidAngle() const {
         if (kind == LIGHT_RECTANGLE) return cell(0, 0, 1);
         const dvec3 a{x, y, z}, b{x + width, y, z}, c{x, y + height, z};
@@ -208,7 +208,7 @@ TEST(Light, FlatLightsAreSeenUniformlyByAngle) {
         }
 }
 
-// Where a light has no solid angle, in its plane or at its corners, nothing arrives, and nothing is infinite.
+// In the plane of a light and at its corners, where directions and solid angles end, points stay on it and nothing is infinite.
 TEST(Light, FlatLightsInTheirPlane) {
     for (const uint kind : {LIGHT_RECTANGLE, LIGHT_TRIANGLE})
         for (const vec3 origin : {vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{1, 1, 0}, vec3{0.5f, 0.5f, 0}, vec3{0.5f, 0, 0}, vec3{2, 0.25f, 0}, vec3{0, 0, 1e-20f}}) {

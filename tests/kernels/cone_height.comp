@@ -3,8 +3,5 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
 #include "sampling.glsl"
-#include "frame.glsl"
-#include "light.glsl"
-#include "targets.glsl"
 
 MAP(vec2, float, coneHeight(x.x, x.y))
