@@ -1,4 +1,5 @@
-// Starts photons on the lights: over the hemisphere, or aimed at the bounding spheres of specular shapes.
+// Starts photons on the lights: over the hemisphere or, of far lights, aimed at the scene; for the caustic map, aimed at the bounding
+// spheres of specular shapes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -7,8 +8,8 @@
 #include "frame.glsl"
 #include "offset.glsl"
 #include "light.glsl"
-#include "targets.glsl"
 #include "features.glsl"
+#include "targets.glsl"
 
 ARGS(EmitArgs)
 
@@ -27,10 +28,8 @@ void main() {
 
     // A direction, and the weight that makes up for a density other than cos / pi.
     vec3 direction;
-    float weight = 1.0;
     vec2 u = sample2(s, 2u);
-    if (args.caustic != 0u) weight = aimAtTargets(scene, point, u, sample2(s, 3u).x, direction);
-    else direction = toWorld(cosineHemisphere(u), point.normal);
+    float weight = args.caustic != 0u ? aimAtTargets(scene, point, u, sample2(s, 3u).x, direction) : aimAtLit(scene, point, u, direction);
 
     vec3 color = light.radiance / luminance(light.radiance) * weight;
     vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);

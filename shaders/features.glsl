@@ -1,7 +1,7 @@
 // Checks that nothing was left out that the scene needs. They cost time, so that debug builds alone make them.
 
 void require(DeviceScene scene, bool needed, uint has, uint id) {
-    if (needed && has == 0u) atomicOr(uintPtr(scene.missing).at[0], 1u << id);
+    if (needed && has == 0u) atomicOr(uintPtr(scene.missing).at[id / 32u], 1u << (id % 32u));
 }
 
 void requireLight(DeviceScene scene, Light light) {

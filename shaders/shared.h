@@ -78,7 +78,9 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(28, hasNoise, 1)                                                                                                 \
     X(29, hasDiffuse, 1)                                                                                               \
     X(30, hasBias, 1)                                                                                                  \
-    X(31, checksFeatures, 0) // kernels report what they meet and are without, see features.glsl
+    X(31, checksFeatures, 0) /* kernels report what they meet and are without, see features.glsl */                    \
+    X(32, hasFarLights, 1)                                                                                             \
+    X(33, hasGuide, 1)
 
 #ifdef __cplusplus
 struct Features {
@@ -187,7 +189,8 @@ struct Light {
 };
 BUFFER(Light)
 
-/// A bounding sphere of a specular shape, at which caustic photons are aimed.
+/// A sphere at which photons are aimed: those of caustics at that about a specular shape, those of far lights at that about all
+/// that light falls upon.
 struct Target {
     vec3 center;
     float radius;
@@ -214,6 +217,7 @@ struct DeviceScene {
     ADDRESS(float) lightCdf; // upper ends, the last is 1
     ADDRESS(Target) targets;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit; // about all that light falls upon
     uint triangleCount;
     uint lightCount;
     uint targetCount;

@@ -25,6 +25,22 @@ vec3 sampleTarget(Target target, LightPoint point, vec2 u) {
     return toWorld(uniformCone(u, coneHeight(target.radius, distance2)), d * inversesqrt(distance2));
 }
 
+// A direction of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform over
+// the cone of all that light falls upon. The weight is the cosine law over that density, 0 below the horizon.
+float aimAtLit(DeviceScene scene, LightPoint point, vec2 u, out vec3 direction) {
+    vec3 d = scene.lit.center - point.position;
+    float distance2 = dot(d, d);
+    bool far = distance2 > 4.0 * scene.lit.radius * scene.lit.radius;
+    if (checksFeatures != 0u) require(scene, far, hasFarLights, id_hasFarLights);
+    if (hasFarLights == 0u || !far) {
+        direction = toWorld(cosineHemisphere(u), point.normal);
+        return 1.0;
+    }
+    float height = coneHeight(scene.lit.radius, distance2);
+    direction = toWorld(uniformCone(u, height), d * inversesqrt(distance2));
+    return 2.0 * height * max(0.0, dot(direction, point.normal));
+}
+
 // Chooses a target in proportion to its solid angle and a direction within it. The weight is the cosine law over the
 // density of the mixture, so a direction covered by several targets counts once; 0 if it is below the horizon.
 float aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice, out vec3 direction) {

@@ -114,6 +114,15 @@ TEST(Features, LeavingOutWhatASceneNeedsIsFoundOut) {
     }
 }
 
+// A lamp of the size and distance of the sun.
+TEST(Features, FarLightsAreMissed) {
+    const Scene scene = loadJson(json::parse(R"({"camera": {"origin": [0, 1, 3], "target": [0, 0, 0]}, "materials": {"grey": {"type": "diffuse", "albedo": 0.5}},
+        "shapes": [{"type": "rectangle", "corner": [-1, 0, 1], "edges": [[2, 0, 0], [0, 0, -2]], "material": "grey"},
+                   {"type": "sphere", "center": [0, 100, 0], "radius": 0.5, "emission": 1}]})"));
+    EXPECT_NO_THROW(renderWithout(scene, nullptr));
+    EXPECT_THROW(renderWithout(scene, &Features::hasFarLights), std::logic_error);
+}
+
 // A scene of a few shapes in a room or in the open, drawn from everything that a scene file can say.
 class Generator {
 public:
@@ -177,6 +186,7 @@ private:
         shape["emission"] = color(0, 20);
         if (maybe()) shape["material"] = "white";
         if (maybe()) shape["twoSided"] = true;
+        if (random.bits() % 4 == 0) shape["transform"] = {{{"translate", vector(50)}}};
         return shape;
     }
     void room() {

@@ -58,19 +58,20 @@ double bruteForce(const Aim& aim, int side = 1200) {
     return 2 * sum / side / side;
 }
 
-std::vector<vec4> aimed(const Aim& aim, uint count) {
+std::vector<vec4> aimed(const Aim& aim, uint count, const char* kernel = "aim_at_targets") {
     Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
     scene.targets = aim.targets;
+    scene.lit = aim.targets[0];
     const TestScene uploaded(scene);
     Random random(7);
     std::vector<AimCase> xs;
     for (uint i = 0; i < count; i++) xs.push_back({aim.position, aim.normal, random.unit2(), random.unit()});
-    return map<vec4>("aim_at_targets", xs, {}, uploaded.context());
+    return map<vec4>(kernel, xs, {}, uploaded.context());
 }
 
-Mean estimate(const Aim& aim, uint count = 1u << 17) {
+Mean estimate(const Aim& aim, const char* kernel = "aim_at_targets") {
     Mean mean;
-    for (const vec4& y : aimed(aim, count)) {
+    for (const vec4& y : aimed(aim, 1u << 17, kernel)) {
         const vec3 w{y};
         EXPECT_NEAR(glm::length(w), 1, 1e-5);
         EXPECT_TRUE(y.w >= 0 && std::isfinite(y.w));
@@ -80,9 +81,9 @@ Mean estimate(const Aim& aim, uint count = 1u << 17) {
     return mean;
 }
 
-void expectUnbiased(const Aim& aim, const char* what) {
+void expectUnbiased(const Aim& aim, const char* what, const char* kernel = "aim_at_targets") {
     const double expected = bruteForce(aim);
-    const Mean mean = estimate(aim);
+    const Mean mean = estimate(aim, kernel);
     EXPECT_NEAR(mean.mean(), expected, 5 * mean.error() + 2e-4 * expected + 1e-5) << what;
     EXPECT_GT(expected, 1e-3) << what;
 }
@@ -98,6 +99,19 @@ TEST(Targets, MeansAreUnbiased) {
     expectUnbiased({.targets = {{{2, 0, 0.1f}, 1}}}, "partly below the horizon");
     expectUnbiased({.targets = {{{2, 0, -0.5f}, 1}, {{-1, 1, 1}, 0.9f}, {{0, 0, -3}, 1}}}, "one wholly below the horizon");
     expectUnbiased({.position = {10, 20, 30}, .targets = {{{10, 20, 31.0001f}, 1}}}, "the light almost at the sphere");
+}
+
+// A light near the scene emits over its hemisphere, one far from it into the cone alone.
+TEST(Targets, FarLightsAreAimedAtTheScene) {
+    const vec3 tilted = glm::normalize(vec3{0.4f, -0.3f, 0.8f});
+    expectUnbiased({.targets = {{{1, 0, 2}, 1.1f}}}, "far", "aim_at_lit");
+    expectUnbiased({.normal = tilted, .targets = {{{10, 0, 20}, 2}}}, "farther", "aim_at_lit");
+    expectUnbiased({.targets = {{{2, 0, 0.2f}, 0.9f}}}, "partly below the horizon", "aim_at_lit");
+    const Aim near{.normal = tilted, .targets = {{{1, 0, 2}, 1.2f}}};
+    Aim inside = near;
+    inside.targets = {{{0, 0, 0}, 1}};
+    const Mean mean = estimate(near, "aim_at_lit");
+    EXPECT_NEAR(mean.mean(), bruteForce(inside), 5 * mean.error());
 }
 
 TEST(Targets, AHundredTargets) {

@@ -19,7 +19,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
     : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
       primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
-      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0})) {
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,
@@ -29,6 +29,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .lightCdf = lightCdf,
               .targets = targets,
               .missing = missing,
+              .lit = scene.lit,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
               .targetCount = static_cast<uint>(scene.targets.size())};
@@ -42,12 +43,12 @@ void UploadedScene::look(const View& view, uvec2 size) {
 }
 
 void UploadedScene::requireNothingMissing() const {
-    const uint bits = missing.read1();
+    const std::vector<uint> bits = missing.download();
     std::string names;
-#define X(id, name, value) names += bits >> id & 1 ? " " #name : "";
+#define X(id, name, value) names += bits[id / 32] >> id % 32 & 1 ? " " #name : "";
     FEATURES(X)
 #undef X
-    if (bits) throw std::logic_error("features were left out that the scene needs:" + names);
+    if (!names.empty()) throw std::logic_error("features were left out that the scene needs:" + names);
 }
 
 } // namespace vkpm

@@ -61,6 +61,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasTriangleLights", f.hasTriangleLights, "meshes that emit");
     has("hasSphereLights", f.hasSphereLights, "spheres that emit");
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
+    because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light", "photons of a light far away are aimed at the scene");
     because("hasGlobalMap", mapAbsent(f.hasGlobalMap, false, f, settings), "the integrator gathers from it");
     because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
     because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");

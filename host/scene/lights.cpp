@@ -1,6 +1,8 @@
 /// Area lights: flux and probabilities.
 #include "scene/lights.h"
+#include "scene/box.h"
 #include "scene/text.h"
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -33,6 +35,26 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
         scene.lightCdf.push_back(high);
         low = high;
     }
+}
+
+Target sphereOfLit(const Scene& scene) {
+    Bounds box;
+    for (std::size_t i = 0; i < scene.primitives.size(); i++) {
+        const Primitive& p = scene.primitives[i];
+        if (p.light != NONE && scene.materials[p.material].color == vec3{0}) continue;
+        const Bounds one = boxOf(p, i >= scene.triangleCount);
+        box = {glm::min(box.low, one.low), glm::max(box.high, one.high)};
+    }
+    if (box.low.x > box.high.x) return {vec3{0}, 0};
+    const dvec3 sides = dvec3{box.high} - dvec3{box.low};
+    return {vec3{dvec3{box.low} + 0.5 * sides}, static_cast<float>(0.500001 * glm::length(sides))};
+}
+
+bool isFar(const Scene& scene, const Light& light) {
+    const dvec3 a = dvec3{light.a} - dvec3{scene.lit.center}, u{light.u}, v{light.v};
+    const double reach = light.kind == LIGHT_SPHERE ? glm::length(a) + u.x
+                                                    : std::max({glm::length(a), glm::length(a + u), glm::length(a + v), glm::length(a + u + v)});
+    return reach > 1.9999 * double{scene.lit.radius};
 }
 
 } // namespace vkpm

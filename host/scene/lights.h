@@ -15,4 +15,10 @@ glm::dvec3 lightFlux(const Light& light);
 /// no light emits or the flux is beyond the range of float.
 void chooseLights(Scene& scene, const std::filesystem::path& file);
 
+/// The sphere about the box of all that light falls upon: of all primitives but lights that reflect nothing.
+Target sphereOfLit(const Scene& scene);
+
+/// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in targets.glsl.
+bool isFar(const Scene& scene, const Light& light);
+
 } // namespace vkpm

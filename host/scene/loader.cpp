@@ -158,6 +158,7 @@ Scene loadScene(const std::filesystem::path& file) {
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
     chooseLights(scene, file);
+    scene.lit = sphereOfLit(scene);
 
     Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
     scene.nodes = std::move(bvh.nodes);

@@ -1,5 +1,5 @@
 /// What a scene gives the kernels besides its arrays: the camera and the features.
-#include "scene/scene.h"
+#include "scene/lights.h"
 #include <algorithm>
 #include <cmath>
 
@@ -84,6 +84,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
     features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
+    features.hasFarLights = anyLight([&](const Light& light) { return isFar(scene, light); });
     features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);
     features.hasNearest = settings.nearest > 0;

@@ -36,6 +36,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
+    Target lit{vec3{0}, 0}; // about all that light falls upon
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
     vec3 flux{0};       // of all lights, W

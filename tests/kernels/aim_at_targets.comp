@@ -5,6 +5,7 @@
 #include "sampling.glsl"
 #include "frame.glsl"
 #include "light.glsl"
+#include "features.glsl"
 #include "targets.glsl"
 
 vec4 aim(AimCase x) {
