@@ -10,6 +10,7 @@
 #include "light.glsl"
 #include "features.glsl"
 #include "targets.glsl"
+#include "guide.glsl"
 
 ARGS(EmitArgs)
 
@@ -19,17 +20,22 @@ void main() {
     DeviceScene scene = args.scene.at[0];
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
 
+    float numbers[START_NUMBERS] = startNumbers(s);
+    float sparse = 1.0;
+    if (hasGuide != 0u && args.guide != uvec2(0u)) sparse = guide(GuideNodePtr(args.guide), numbers);
+
     // A light in proportion to its flux, a point on it, and the side if there are two.
-    vec2 choice = sample2(s, 0u);
-    Light light = LightPtr(scene.lights).at[chooseLight(scene, choice.x)];
+    Light light = LightPtr(scene.lights).at[chooseLight(scene, numbers[START_LIGHT])];
     requireLight(scene, light);
-    LightPoint point = sampleLight(light, sample2(s, 1u));
-    if (isTwoSided(light) && choice.y < 0.5) point.normal = -point.normal;
+    LightPoint point = sampleLight(light, vec2(numbers[START_PLACE], numbers[START_PLACE + 1u]));
+    if (isTwoSided(light) && numbers[START_SIDE] < 0.5) point.normal = -point.normal;
 
     // A direction, and the weight that makes up for a density other than cos / pi.
     vec3 direction;
-    vec2 u = sample2(s, 2u);
-    float weight = args.caustic != 0u ? aimAtTargets(scene, point, u, sample2(s, 3u).x, direction) : aimAtLit(scene, point, u, direction);
+    vec2 u = vec2(numbers[START_DIRECTION], numbers[START_DIRECTION + 1u]);
+    float weight = args.caustic != 0u ? aimAtTargets(scene, point, u, numbers[START_TARGET], direction) : aimAtLit(scene, point, u, direction);
+    if (hasGuide != 0u && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
+    weight *= sparse;
 
     vec3 color = light.radiance / luminance(light.radiance) * weight;
     vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);

@@ -359,6 +359,33 @@ const uint QUEUE_CAUSTIC = 2u;
 const uint QUEUE_GLOBAL = 3u;
 const uint EYE_QUEUES = 4u;
 
+// The numbers in [0, 1) that start a photon: light, side, two for the place on the light, two for the direction, target.
+const uint START_NUMBERS = 7u;
+const uint START_LIGHT = 0u;
+const uint START_SIDE = 1u;
+const uint START_PLACE = 2u;
+const uint START_DIRECTION = 4u;
+const uint START_TARGET = 6u;
+
+/// A box of such numbers, cut in the middle of an axis into children `child` (lower numbers) and `child` + 1.
+struct GuideNode {
+    uint axis;   // NONE: a leaf
+    float lower; // part of the photons of the box that the lower half gets
+    uint child;
+};
+BUFFER(GuideNode)
+
+/// How a photon was started, and how useful it was.
+struct Start {
+    float numbers[START_NUMBERS];
+    float weight;  // of its flux, had the numbers been uniform
+    float sparse;  // uniform density over that of the numbers
+    uint stored;   // how often it was stored,
+    uint seen;     // and how often where the eye looks,
+    vec3 place;    // there first
+};
+BUFFER(Start)
+
 struct EmitArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
@@ -366,6 +393,8 @@ struct EmitArgs {
     PTR(uint) flags;
     PTR(uint) counts; // of arrivals, by path
     PTR(Status) status;
+    ADDRESS(GuideNode) guide; // 0: the numbers are uniform
+    ADDRESS(Start) starts;    // 0: nobody asks
     uint firstPhoton;
     uint count;
     uint pass;
@@ -661,6 +690,29 @@ struct JoinArgs {
     PTR(float) other; // [column][pixels]
     uint pixels;
     JoinWeights weights;
+};
+
+// ---- Where the eye looks ------------------------------------------------------------------------
+
+const uint MARK_WORDS = 1u << 18; // of a set of cells, see marks.glsl; one more has a bit for each level in use
+
+struct MarkArgs {
+    PhotonMap map;
+    PTR(Query) queries;
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) marks;
+    float cellWidth; // of the finest level
+    float reach;     // part of a query's footprint that it marks, if that is more than the map's radius there
+};
+
+struct UsefulArgs {
+    PTR(Photon) photons;
+    PTR(uint) offsets; // of the paths' photons
+    PTR(uint) marks;
+    PTR(Start) starts;
+    uint count; // of paths
+    float cellWidth;
 };
 
 // ---- Light tracing ------------------------------------------------------------------------------

@@ -10,9 +10,9 @@ namespace {
 
 class Determinism : public Program {
 protected:
-    // All channels of the box by an integrator under an environment, and the device that it says.
-    Image renderWith(const std::string& integrator, const std::string& environment) const {
-        const Result result = run("--integrator " + integrator + " --scene " + scene("box") + " --size 40x32 --passes 3 --photons 5000 --caustic-photons 5000 --quiet -o x.exr", environment);
+    // All channels of a scene by an integrator under an environment, and the device that it says.
+    Image renderWith(const std::string& integrator, const std::string& environment, const std::string& name = "box") const {
+        const Result result = run("--integrator " + integrator + " --scene " + scene(name) + " --size 40x32 --passes 3 --photons 5000 --caustic-photons 5000 --quiet -o x.exr", environment);
         EXPECT_EQ(result.code, 0) << result.output;
         return readExr(folder / "x.exr");
     }
@@ -42,6 +42,13 @@ TEST_F(Determinism, DriverThreadsAndLanesDoNotMatter) {
     }
 }
 
+// The pool's photons are guided by what the host learns from those of the device.
+TEST_F(Determinism, GuidesAreTheSameOnAnyLanes) {
+    const Image plain = renderWith("photon", "", "pool");
+    for (const std::string environment : {"LP_NUM_THREADS=1", "LP_NATIVE_VECTOR_WIDTH=128", "LP_NATIVE_VECTOR_WIDTH=512"})
+        expectSameBits(renderWith("photon", environment, "pool"), plain, environment);
+}
+
 std::vector<Pixel> renderInWaves(const Scene& scene, uint integrator, WaveSizes waves) {
     Settings settings = scene.settings;
     settings.integrator = integrator;
@@ -53,11 +60,11 @@ std::vector<Pixel> renderInWaves(const Scene& scene, uint integrator, WaveSizes 
 }
 
 TEST(Waves, SizesDoNotMatter) {
-    for (const char* name : {"box", "ring"})
+    for (const char* name : {"box", "ring", "pool"})
         for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_LIGHT}) {
             const Scene scene = shippedScene(name);
             const std::vector<Pixel> whole = renderInWaves(scene, integrator, {});
-            EXPECT_GT(layerMean(whole, LAYER_CAUSTIC), 0);
+            EXPECT_GT(layerMean(whole, LAYER_CAUSTIC) + layerMean(whole, LAYER_SPECULAR), 0);
             for (const WaveSizes waves : {WaveSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
                 const std::vector<Pixel> parts = renderInWaves(scene, integrator, waves);
                 EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)

@@ -173,7 +173,7 @@ std::string faultOfPlan(const Scene& scene) {
     const Settings& settings = scene.settings;
     const std::vector<Camera> cameras{pinholeCamera(scene.view, settings.size)};
     if (!allFinite(cameras, sizeof(Camera) / 4)) return "the camera is not finite";
-    const Extent extent = extentOf(scene, {});
+    const Extent extent = extentOf(scene);
     const float radius = settings.radius.value_or(widestRadius(extent, settings.photons, settings.nearest));
     if (!(radius > 0) || !std::isfinite(radius)) return "the gather radius";
     if (mostLevels(extent, radius) > MOST_LEVELS) return "levels of the grid";

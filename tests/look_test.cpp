@@ -45,9 +45,16 @@ void expectSame(const Rendered& a, const Rendered& b) {
     EXPECT_EQ(a.caustic.rays, b.caustic.rays);
 }
 
-TEST(Look, AnotherViewOrSizeIsAsIfNew) {
+/// The ring's cusp from nearby: photons are guided.
+Scene cusp() {
+    Scene scene = shippedScene("ring");
+    scene.view.target = {-0.3f, 0, 0.1f};
+    scene.view.fieldOfView = glm::radians(6.0f);
+    return scene;
+}
+
+void expectAsIfNew(const Scene& scene) {
     for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_LIGHT, INTEGRATOR_PHOTON_MAP}) {
-        const Scene scene = shippedScene("box");
         const Settings settings = settingsFor(scene, integrator);
         Renderer renderer(testGpu(), scene, settings);
         passesOf(renderer);
@@ -59,9 +66,24 @@ TEST(Look, AnotherViewOrSizeIsAsIfNew) {
     }
 }
 
+TEST(Look, AnotherViewOrSizeIsAsIfNew) { expectAsIfNew(shippedScene("box")); }
+
+TEST(Look, GuidesFollowTheView) {
+    expectAsIfNew(cusp());
+
+    // From a guide to none and back.
+    const Scene near = cusp(), far = shippedScene("ring");
+    const Settings settings = settingsFor(near, INTEGRATOR_PHOTON);
+    Renderer renderer(testGpu(), near, settings);
+    for (const Scene* scene : {&near, &far, &near}) {
+        renderer.look(scene->view, size);
+        expectSame(passesOf(renderer), anew(near, scene->view, settings, size));
+        EXPECT_EQ(renderer.features().hasGuide, scene == &near);
+    }
+}
+
 // The flag comes up after another number of submissions each time, until all passes go through.
-TEST(Look, AfterCancelledItIsAsIfNew) {
-    const Scene scene = shippedScene("box");
+void expectAsIfNewAfterCancelled(const Scene& scene) {
     uint left = 0;
     for (int microseconds = 300, run = 0; microseconds < 60'000; microseconds = microseconds * 4 / 3, run++) {
         const Settings settings = settingsFor(scene, run % 2 ? INTEGRATOR_LIGHT : INTEGRATOR_PHOTON);
@@ -75,7 +97,8 @@ TEST(Look, AfterCancelledItIsAsIfNew) {
             cancel = true;
         });
         try {
-            for (uint pass = 1; pass < 8; pass++) renderer.renderPass(pass);
+            renderer.look(scene.view, size);
+            for (uint pass = 0; pass < 8; pass++) renderer.renderPass(pass);
         } catch (const Cancelled&) {
             left++;
         }
@@ -85,6 +108,10 @@ TEST(Look, AfterCancelledItIsAsIfNew) {
     }
     EXPECT_GT(left, 5u);
 }
+
+TEST(Look, AfterCancelledItIsAsIfNew) { expectAsIfNewAfterCancelled(shippedScene("box")); }
+
+TEST(Look, AfterCancelledGuidesAreAsIfNew) { expectAsIfNewAfterCancelled(cusp()); }
 
 } // namespace
 } // namespace vkpm

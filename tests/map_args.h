@@ -133,6 +133,20 @@ struct AimCase {
     float choice;
 };
 
+struct GuideStartArgs {
+    PTR(Start) starts;
+    ADDRESS(GuideNode) guide;
+    uint count;
+};
+
+struct IsMarkedArgs {
+    PTR(Photon) photons; // places
+    PTR(uint) marks;
+    PTR(uint) marked; // 1 if so
+    uint count;
+    float cellWidth;
+};
+
 struct CameraCase {
     Camera camera;
     vec2 film;

@@ -42,27 +42,28 @@ TEST(Radius, ExtentIsThatOfTheLight) {
     scene.primitives = {{{-far, 0, -far}, {far, 0, -far}, {far, 0, far}, 0, NONE, NONE}};
     scene.triangleCount = 1;
     scene.bounds = {{-far, 0, -far}, {far, 0, far}};
-    EXPECT_NEAR(extentOf(scene, {}).diagonal, std::sqrt(8.0) * double{far}, 1);
-    EXPECT_NEAR(extentOf(scene, {}).area, 2e12, 1e6);
+    const Extent whole = extentOf(scene);
+    EXPECT_NEAR(whole.diagonal, std::sqrt(8.0) * double{far}, 1);
+    EXPECT_NEAR(whole.area, 2e12, 1e6);
 
     Random random(6);
-    std::vector<Photon> photons;
-    for (int i = 0; i < 8000; i++) photons.push_back({vec3(random.between(-1, 1), 0, random.between(-1, 1)), vec3(1), normalUp});
-    for (int i = 0; i < 60; i++) photons.push_back({vec3(far * random.between(-1, 1), 0, 0), vec3(1), normalUp}); // fewer than a hundredth
-    const Extent extent = extentOf(scene, photons);
+    std::vector<vec3> photons;
+    for (int i = 0; i < 8000; i++) photons.emplace_back(random.between(-1, 1), 0, random.between(-1, 1));
+    for (int i = 0; i < 60; i++) photons.emplace_back(far * random.between(-1, 1), 0, 0); // fewer than a hundredth
+    const Extent extent = extentOf(whole, photons);
     EXPECT_NEAR(extent.diagonal, 2 * std::sqrt(8.0), 0.3);
     EXPECT_NEAR(extent.reach, 2, 0.1);
     EXPECT_LT(extent.area, 100);
 
     // One photon, or all in one place, say nothing about the size of a scene.
     photons.resize(1);
-    EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
+    EXPECT_GT(extentOf(whole, photons).diagonal, 1e6);
     photons.resize(5000, photons[0]);
-    EXPECT_GT(extentOf(scene, photons).diagonal, 1e6);
+    EXPECT_GT(extentOf(whole, photons).diagonal, 1e6);
 
     // What a radius may be at least follows the light, too.
-    EXPECT_THROW(requireRadius(extentOf(scene, {}), 3.0f, "radius"), InputError);
-    EXPECT_NO_THROW(requireRadius(extentOf(scene, {}), 4.0f, "radius"));
+    EXPECT_THROW(requireRadius(whole, 3.0f, "radius"), InputError);
+    EXPECT_NO_THROW(requireRadius(whole, 4.0f, "radius"));
     EXPECT_THROW(requireRadius(extent, 1e-6f, "radius"), InputError);
     EXPECT_NO_THROW(requireRadius(extent, 1e-5f, "radius"));
 }

@@ -5,6 +5,10 @@
 
 namespace vkpm {
 
+// What paths of a small picture mark, in pixels of it: those of caustics what lies between two of them, gather rays, which are few
+// and go everywhere, what lies about.
+const float pixelReach = 2, rayReach = 8;
+
 const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)
@@ -32,6 +36,20 @@ void CameraPaths::castShadowRays(Recording& recording) {
     if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue, compaction.list, size});
 }
 
+/// Answers the questions of a queue to its map, or marks where they were asked.
+void CameraPaths::askMap(Recording& recording, const Wave& wave, uint kind) {
+    const PhotonMap& map = kind == QUEUE_CAUSTIC ? wave.maps.caustic : wave.maps.global;
+    if (map.radius == 0) return;
+    const Ptr<Queue> queue{compaction.queues.address + kind * sizeof(Queue)};
+    if (!wave.maps.marks) {
+        recording.run(*gather, compaction.queues, kind, {map, queries, samples, queue, compaction.list, size});
+        return;
+    }
+    const EyeMarks::Map& marks = kind == QUEUE_CAUSTIC ? wave.maps.marks->caustic : wave.maps.marks->global;
+    const float reach = kind == QUEUE_CAUSTIC ? pixelReach : rayReach;
+    recording.run(wave.maps.marks->kernel, compaction.queues, kind, {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
+}
+
 void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
@@ -42,11 +60,8 @@ void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
     compaction.compact(recording);
 
     castShadowRays(recording);
-    const auto queue = [&](uint kind) { return Ptr<Queue>{queues.address + kind * sizeof(Queue)}; };
-    if (wave.maps.caustic.cells.address)
-        recording.run(*gather, queues, QUEUE_CAUSTIC, {wave.maps.caustic, queries, samples, queue(QUEUE_CAUSTIC), compaction.list, size});
-    if (wave.maps.global.cells.address)
-        recording.run(*gather, queues, QUEUE_GLOBAL, {wave.maps.global, queries, samples, queue(QUEUE_GLOBAL), compaction.list, size});
+    askMap(recording, wave, QUEUE_CAUSTIC);
+    askMap(recording, wave, QUEUE_GLOBAL);
 }
 
 /// Batches of bounces, until the device says that no path is left.

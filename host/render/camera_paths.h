@@ -6,11 +6,23 @@
 
 namespace vkpm {
 
+/// Marks of the places where paths ask the maps, see marks.glsl.
+struct EyeMarks {
+    struct Map {
+        Buffer<uint> bits{};
+        float cellWidth = 0; // of the finest cells, world units
+    };
+    Kernel<MarkArgs> kernel;
+    Map global{};
+    Map caustic{};
+};
+
 /// The photon maps of a pass; one that the scene does not need has no cells.
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};
     float nearDistance = 0; // a gather ray shorter than this goes on, world units
+    const EyeMarks* marks = nullptr; // the places are marked there, and nothing is gathered
 };
 
 struct RayCounts {
@@ -42,6 +54,7 @@ private:
         const PhotonMaps& maps;
     };
     void castShadowRays(Recording& recording);
+    void askMap(Recording& recording, const Wave& wave, uint queue);
     void bounce(Recording& recording, const Wave& wave, uint bounce);
     RayCounts follow(Recording& recording, const Wave& wave, uint bounce);
 

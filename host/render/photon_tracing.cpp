@@ -17,14 +17,23 @@ PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     return *this;
 }
 
-PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, MapKind mapKind, uint photonCount, uint sequence, uint waveSize)
-    : gpu(device), scene(uploaded), kind(mapKind), count(photonCount), seed(sequence), wave(std::min(waveSize, count)),
+PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& has, MapKind mapKind, uint photonCount, uint sequence, uint waveSize)
+    : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence), wave(std::min(waveSize, count)),
       name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"), compaction(gpu, name, wave, PHOTON_QUEUES),
       paths(gpu, name + " paths", wave), hits(gpu, name + " hits", wave), counts(gpu, name + " counts", wave + 1ull),
       whole(gpu, name + " wave", 1), status(gpu, name + " status", 1), emit(gpu, "emit", features), traceKernel(gpu, "trace", features),
       scatter(gpu, "scatter", features), scan(gpu, "scan"), placeKernel(gpu, "place") {
     const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
     arrivals = Buffer<Arrival>(gpu, name + " arrivals", std::uint64_t(perPhoton) * wave);
+}
+
+void PhotonTracing::guide(Ptr<GuideNode> nodes, Ptr<Start> toFill) {
+    Features emission = features;
+    emission.hasGuide |= nodes.address || toFill.address;
+    emit = Kernel<EmitArgs>(gpu, "emit", emission);
+    guideNodes = nodes;
+    starts = toFill;
+    held.reset();
 }
 
 void PhotonTracing::bounce(Recording& recording, uint pass, uint first, uint index) {
@@ -40,7 +49,7 @@ PhotonLedger PhotonTracing::traceWave(uint pass, uint first, uint size) {
     Recording recording(gpu);
     recording.clear(status);
     compaction.start(size);
-    recording.run(emit, size, {scene.address, paths, compaction.list, compaction.flags, counts, status, first, size, pass, seed, uint(kind)});
+    recording.run(emit, size, {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts, first, size, pass, seed, uint(kind)});
     compaction.compact(recording);
 
     // Batches of bounces, until the device says that no photon is left.

@@ -30,6 +30,10 @@ public:
 
     /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
     PhotonLedger trace(uint pass);
+    /// Starts photons by a guide's density, or uniformly if it has no nodes; how, and how useful each was, goes to `starts`, if there are any.
+    void guide(Ptr<GuideNode> nodes, Ptr<Start> starts = {});
+    /// Where the photons of each path begin, if there is one wave.
+    Ptr<uint> places() const { return counts; }
     /// How many photons there are.
     std::uint64_t arrived() const { return held ? heldLedger.stored : 0; }
 
@@ -44,10 +48,13 @@ private:
 
     Gpu& gpu;
     const UploadedScene& scene;
+    Features features;
     MapKind kind;
     uint count;
     uint seed;
     uint wave;
+    Ptr<GuideNode> guideNodes;
+    Ptr<Start> starts;
     std::optional<uint> held; // pass whose photons these are
     PhotonLedger heldLedger;
     std::string name;

@@ -18,13 +18,13 @@ static double surfaceArea(const Scene& scene) {
     return area;
 }
 
-/// The box that holds all but a hundredth of the photons at either end of each axis; at least one photon.
-static Bounds middleOf(std::span<const Photon> photons) {
+/// The box that holds all but a hundredth of the places at either end of each axis; at least one place.
+static Bounds middleOf(std::span<const vec3> places) {
     Bounds box;
-    std::vector<float> xs(photons.size());
-    const auto few = static_cast<std::ptrdiff_t>(photons.size() / 100);
+    std::vector<float> xs(places.size());
+    const auto few = static_cast<std::ptrdiff_t>(places.size() / 100);
     for (int axis = 0; axis < 3; axis++) {
-        std::ranges::transform(photons, xs.begin(), [&](const Photon& photon) { return photon.position[axis]; });
+        std::ranges::transform(places, xs.begin(), [&](vec3 place) { return place[axis]; });
         std::ranges::sort(xs);
         box.low[axis] = *(xs.begin() + few);
         box.high[axis] = *(xs.end() - 1 - few);
@@ -39,12 +39,13 @@ static double reachOf(const Bounds& box) {
     return std::max({reach.x, reach.y, reach.z});
 }
 
-const std::size_t enoughForExtent = 100; // photons
+const std::size_t enoughForExtent = 100; // places
 
-Extent extentOf(const Scene& scene, std::span<const Photon> some) {
-    const Extent whole{diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene)};
-    if (some.size() < enoughForExtent) return whole;
-    const Bounds middle = middleOf(some);
+Extent extentOf(const Scene& scene) { return {diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene)}; }
+
+Extent extentOf(const Extent& whole, std::span<const vec3> places) {
+    if (places.size() < enoughForExtent) return whole;
+    const Bounds middle = middleOf(places);
     const double room = 2; // for those beyond the middle
     const double diagonal = room * diagonalOf(middle);
     if (diagonal < std::ldexp(reachOf(middle), -10)) return whole; // all but a point

@@ -13,9 +13,12 @@ struct Extent {
     double area;     // of its surfaces, in world units
 };
 
-/// The extent of a scene, or what a box about 98 of 100 of some photons suggests, if that is less: a horizon or a planet far
-/// beyond the light must not decide radii.
-Extent extentOf(const Scene& scene, std::span<const Photon> some);
+/// The extent of a scene's shapes.
+Extent extentOf(const Scene& scene);
+
+/// That of a scene, or what a box about 98 of 100 places of photons suggests, if that is less: a horizon or a planet far beyond
+/// the light must not decide radii.
+Extent extentOf(const Extent& scene, std::span<const vec3> places);
 
 /// The widest first radius that the program chooses by itself, world units: a fiftieth of the scene, less if there are many
 /// photons, or, where the k nearest of them are sought (nearest > 0), wide enough to hold them almost everywhere.

@@ -1,6 +1,5 @@
 /// Stages and their order.
 #include "render/renderer.h"
-#include "render/radius.h"
 #include <algorithm>
 
 namespace vkpm {
@@ -23,24 +22,38 @@ const float causticPhotonsPerDisc = 10;
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waveSizes)
     : Renderer(device, input, set, sceneFeatures(input, set), waveSizes) {}
 
+/// Photons go where any layer has the eye look, so that the layers of a picture are the same whatever else was asked for.
+static Features withAllLayers(const Scene& scene, Settings settings) {
+    settings.layers = allLayers;
+    return sceneFeatures(scene, settings);
+}
+
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waveSizes)
-    : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings),
+    : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)), guideNeeds(input), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      waves(waveSizes), global(construct(input, MapKind::global)), caustic(construct(input, MapKind::caustic)), film(gpu, settings.size, sceneHas) {
+      waves(waveSizes), global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
     constructCamera();
 }
 
+Features Renderer::features() const {
+    Features has = sceneHas;
+    for (const std::optional<MapStages>* stages : {&global, &caustic})
+        if (*stages && (*stages)->guide && (*stages)->guide->nodes.size()) has.hasGuide = 1;
+    return has;
+}
+
 /// The stages of a map with its radii, if the scene has use for it.
-std::optional<MapStages> Renderer::construct(const Scene& input, MapKind kind) {
+std::optional<MapStages> Renderer::construct(MapKind kind) {
     const bool isGlobal = kind == MapKind::global;
     if (!(isGlobal ? sceneHas.hasGlobalMap : sceneHas.hasCausticMap)) return {};
     const uint photons = isGlobal ? settings.photons : settings.causticPhotons;
     const std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
     gpu.compilesAhead = true;
-    MapStages stages{PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons),
-                     PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f)};
-    if (radius) checkRadius(stages, input, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
-    else measureRadii(stages, input, photons, isGlobal ? globalPhotonsPerDisc : causticPhotonsPerDisc, isGlobal);
+    MapStages stages{kind, PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons),
+                     PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f), !radius};
+    if (radius) checkRadius(stages, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
+    else measureRadii(stages);
+    stages.measured = true;
     gpu.compilesAhead = false;
     return stages;
 }
@@ -62,7 +75,7 @@ void Renderer::look(const View& view, uvec2 size) {
     film = Film(gpu, size, sceneHas);
     cameraRays = {};
     for (std::optional<MapStages>* stages : {&global, &caustic})
-        if (*stages) (*stages)->ledger = {};
+        if (*stages) (*stages)->ledger = {}, (*stages)->forget();
     if (light) light->ledger = {};
 }
 
@@ -72,32 +85,90 @@ PhotonLedger Renderer::photons(MapKind kind) const {
     return stages ? stages->ledger : PhotonLedger{};
 }
 
-static std::vector<Photon> somePhotons(const PhotonTracing& tracing, std::uint64_t stored) {
-    return tracing.photons.download(std::min<std::uint64_t>(stored, photonsForExtent));
+static std::vector<vec3> somePlaces(const PhotonTracing& tracing, std::uint64_t stored) {
+    std::vector<vec3> places;
+    for (const Photon& photon : tracing.photons.download(std::min<std::uint64_t>(stored, photonsForExtent))) places.push_back(photon.position);
+    return places;
 }
 
 /// Whether a radius that was given makes sense. Only one that drowns in the roundings of the scene's farthest coordinates has to
 /// wait for photons to tell how far the light gets.
-void Renderer::checkRadius(MapStages& stages, const Scene& input, std::string_view name) {
-    if (!drownsInRounding(extentOf(input, {}), stages.radius)) return;
+void Renderer::checkRadius(MapStages& stages, std::string_view name) {
+    if (!drownsInRounding(extent, stages.radius)) return;
     const std::uint64_t stored = stages.tracing.trace(firstPass).stored;
-    requireRadius(extentOf(input, somePhotons(stages.tracing, stored)), stages.radius, name);
+    requireRadius(extentOf(extent, somePlaces(stages.tracing, stored)), stages.radius, name);
 }
 
-void Renderer::measureRadii(MapStages& stages, const Scene& input, uint photons, float perDisc, bool oneRadius) {
+/// The radii of photons as they are started now. What the eye does not see is of no account, if it is known.
+void Renderer::measureRadii(MapStages& stages) {
+    const bool oneRadius = stages.kind == MapKind::global;
     const bool byDensity = settings.nearest == 0 && !settings.showPoints;
     if (byDensity) stages.field.emplace(gpu);
     const uint stored = static_cast<uint>(stages.tracing.trace(oneRadius || !byDensity ? firstPass : noPass).stored);
-    const Extent extent = extentOf(input, somePhotons(stages.tracing, stored));
-    stages.radius = widestRadius(extent, photons, settings.nearest);
+    const bool sees = stages.guide && !stages.guide->places.empty();
+    const Extent lit = extentOf(extent, sees ? stages.guide->places : somePlaces(stages.tracing, stored));
+    stages.radius = widestRadius(lit, oneRadius ? settings.photons : settings.causticPhotons, settings.nearest);
     if (!byDensity) return;
-    const uint levels = mostLevels(extent, stages.radius);
+    const uint levels = mostLevels(lit, stages.radius);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
+    // What a guide adds to caustics goes half into less noise, half into less blur.
+    const float perDisc = oneRadius ? globalPhotonsPerDisc : causticPhotonsPerDisc * std::sqrt(stages.guide ? stages.guide->density : 1.0f);
     stages.field->measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
         stages.radius = stages.typicalRadius();
         stages.field.reset();
     }
+}
+
+/// A map as gathers see it, but for its photons.
+static PhotonMap mapOf(const std::optional<MapStages>& stages) {
+    if (!stages) return {};
+    PhotonMap map{.levels = stages->levels(), .radius = stages->radius};
+    if (stages->field) stages->field->apply(map);
+    return map;
+}
+
+/// Whether photons may be wasted on what the eye does not see.
+bool Renderer::mayGuide(const std::optional<MapStages>& stages) const {
+    if (!settings.guides || settings.integrator != INTEGRATOR_PHOTON || !stages) return false;
+    return stages->kind == MapKind::caustic || guideNeeds.global;
+}
+
+/// Learns where to send photons, once for a view. Each stage is either as it was or done when a render is cancelled.
+void Renderer::guidePhotons() {
+    const std::array maps{&global, &caustic};
+    const auto measure = [&] {
+        for (std::optional<MapStages>* stages : maps) {
+            if (!*stages || (*stages)->measured) continue;
+            measureRadii(**stages);
+            (*stages)->measured = true;
+        }
+    };
+    const auto learns = [&](const std::optional<MapStages>* stages) { return mayGuide(*stages) && !(*stages)->guide; };
+    if (std::ranges::any_of(maps, learns)) {
+        measure();
+        const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic)});
+        for (std::optional<MapStages>* stages : maps)
+            if (learns(stages)) (*stages)->follow(learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
+    }
+    measure();
+}
+
+void MapStages::follow(Guide learned) {
+    guide = std::move(learned);
+    if (!guide->nodes.size()) return;
+    tracing.guide(guide->nodes);
+    built.reset();
+    measured = !chooses;
+}
+
+void MapStages::forget() {
+    if (guide && guide->nodes.size()) {
+        tracing.guide({});
+        built.reset();
+        measured = !chooses;
+    }
+    guide.reset();
 }
 
 void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
@@ -111,10 +182,9 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     stages->built.reset(); // until it is done
     const float factor = radiusFactor(pass, settings.alpha);
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
-    const uint levels = stages->field ? static_cast<uint>(-stages->field->smallest) : 1;
     // Points are shown as they are, and the k nearest are those of all photons.
     const std::optional<uint> thinned = settings.showPoints || settings.nearest ? std::nullopt : std::optional(pass);
-    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, levels, thinned);
+    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, stages->levels(), thinned);
     stages->map.shrink = factor;
     stages->map.kernel = settings.kernel;
     stages->map.nearest = settings.nearest;
@@ -123,6 +193,7 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
 }
 
 void Renderer::renderPass(uint pass) {
+    guidePhotons();
     buildMap(global, pass);
     buildMap(caustic, pass);
     if (light) light->trace(pass);

@@ -2,9 +2,11 @@
 #pragma once
 #include "render/camera_paths.h"
 #include "render/film.h"
+#include "render/guide.h"
 #include "render/light_tracing.h"
 #include "render/photon_grid.h"
 #include "render/photon_tracing.h"
+#include "render/radius.h"
 #include "render/radius_field.h"
 #include <cmath>
 #include <optional>
@@ -13,17 +15,28 @@ namespace vkpm {
 
 /// A photon map that is made anew for each pass.
 struct MapStages {
+    MapKind kind;
     PhotonTracing tracing;
     PhotonGrid grid;
     float flux;                         // W per photon
     float radius;                       // of the first pass, the widest, world units
+    bool chooses;                       // whether the program chooses it
     std::optional<RadiusField> field{}; // where it is less, if the program chooses
+    bool measured = false;              // whether radii are those of the photons now
+    std::optional<Guide> guide{};       // once it is learned
     PhotonLedger ledger{};
     PhotonMap map{};
     std::optional<uint> built{}; // pass whose map this is
 
     /// That of most photons in the first pass.
     float typicalRadius() const { return field ? radius * std::exp2(field->median) : radius; }
+    /// How often cells are split for the narrowest radii.
+    uint levels() const { return field ? static_cast<uint>(-field->smallest) : 1; }
+
+    /// Starts photons by a guide from now on.
+    void follow(Guide learned);
+    /// Starts photons as if the guide were not learned yet.
+    void forget();
 };
 
 /// How many paths are under way at a time; the picture does not depend on it.
@@ -46,22 +59,28 @@ public:
     void look(const View& view, uvec2 size);
 
     RayCounts rays() const { return cameraRays; }
-    const Features& features() const { return sceneHas; }
+    /// What the kernels are made for; hasGuide once a pass was rendered.
+    Features features() const;
     const std::optional<MapStages>& globalMap() const { return global; }
     const std::optional<MapStages>& causticMap() const { return caustic; }
     /// What became of the photons of either kind in all passes; those of the caustic kind are for its map or for light tracing.
     PhotonLedger photons(MapKind kind) const;
 
 private:
-    std::optional<MapStages> construct(const Scene& scene, MapKind kind);
-    void checkRadius(MapStages& stages, const Scene& scene, std::string_view name);
-    void measureRadii(MapStages& stages, const Scene& scene, uint photons, float perDisc, bool oneRadius);
+    std::optional<MapStages> construct(MapKind kind);
+    void checkRadius(MapStages& stages, std::string_view name);
+    void measureRadii(MapStages& stages);
+    bool mayGuide(const std::optional<MapStages>& stages) const;
+    void guidePhotons();
     void constructCamera();
     void buildMap(std::optional<MapStages>& stages, uint pass);
 
     Gpu& gpu;
     Settings settings;
     Features sceneHas;
+    Features eyeHas; // were all layers asked for
+    Extent extent;
+    GuideNeeds guideNeeds;
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
     WaveSizes waves;

@@ -62,6 +62,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasSphereLights", f.hasSphereLights, "spheres that emit");
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
     because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light", "photons of a light far away are aimed at the scene");
+    because("hasGuide", f.hasGuide ? "" : f.hasGlobalMap || f.hasCausticMap ? "most photons are useful, or none, or it is not known yet" : "there is no photon map", "photons are sent where the eye looks");
     because("hasGlobalMap", mapAbsent(f.hasGlobalMap, false, f, settings), "the integrator gathers from it");
     because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
     because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");

@@ -84,6 +84,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
     features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
+    features.hasGuide = 0; // the renderer finds out
     features.hasFarLights = anyLight([&](const Light& light) { return isFar(scene, light); });
     features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);

@@ -28,6 +28,7 @@ struct Settings {
     uint integrator = INTEGRATOR_PHOTON; // INTEGRATOR_...
     bool showCaustic = false;            // photon-map: the caustic map in place of the global one
     bool showPoints = false;             // photon-map: photons as points in place of the estimate
+    bool guides = true;                  // photons are sent where the eye looks, if many would lie elsewhere
     uint layers = allLayers;             // bits by place in layerNames; what is not asked for is not rendered
     bool allFeatures = false;            // the general program in place of one compiled for the scene; the same picture
     float exposure = 0;                  // stops, for the PNG alone

@@ -15,6 +15,7 @@ Settings draftSettings(Settings settings) {
     settings.photons = std::min(settings.photons, mostPhotons);
     settings.causticPhotons = std::min(settings.causticPhotons, mostPhotons);
     settings.gatherRays = 1;
+    settings.guides = false;
     return settings;
 }
 

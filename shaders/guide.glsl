@@ -1,0 +1,34 @@
+// Guided emission: numbers that start photons, by a tree that says how many to draw from each part of their unit cube (primary sample
+// space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018); needs random.glsl.
+
+const float BELOW_ONE = 0.99999994;
+
+// The numbers that start a photon, uniform over the unit cube.
+float[START_NUMBERS] startNumbers(Sampler s) {
+    vec2 light = sample2(s, 0u);
+    vec2 place = sample2(s, 1u);
+    vec2 direction = sample2(s, 2u);
+    return float[](light.x, light.y, place.x, place.y, direction.x, direction.y, sample2(s, 3u).x);
+}
+
+// Warps uniform numbers to those of the guide's density; returns the uniform density over that. Numbers that were well distributed
+// stay so, as each half of a box keeps their order (as McCool & Harwood 1997 do for grids).
+float guide(GuideNodePtr nodes, inout float numbers[START_NUMBERS]) {
+    float low[START_NUMBERS] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    float width[START_NUMBERS] = float[](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
+    float sparse = 1.0;
+    GuideNode node = nodes.at[0];
+    while (node.axis != NONE) {
+        uint axis = node.axis;
+        float x = numbers[axis];
+        bool upper = x >= node.lower;
+        float part = upper ? 1.0 - node.lower : node.lower;
+        numbers[axis] = min((upper ? x - node.lower : x) / part, BELOW_ONE);
+        width[axis] *= 0.5;
+        if (upper) low[axis] += width[axis];
+        sparse *= 0.5 / part;
+        node = nodes.at[node.child + uint(upper)];
+    }
+    [[unroll]] for (uint i = 0u; i < START_NUMBERS; i++) numbers[i] = min(low[i] + width[i] * numbers[i], BELOW_ONE);
+    return sparse;
+}

@@ -1,0 +1,19 @@
+// Marks where camera paths would ask a photon map: what a gather reads, and what lies between it and the next path's.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "radius_field.glsl"
+#include "marks.glsl"
+
+ARGS(MarkArgs)
+
+void main() {
+    Queue queue = args.queue.at[0];
+    if (threadIndex() >= queue.count) return;
+    Query query = args.queries.at[args.list.at[queue.first + threadIndex()]];
+    float reach = max(radiusAt(args.map, query.position), args.reach * query.footprint);
+    uint level = 0u;
+    while (level < 31u && ldexp(args.cellWidth, int(level)) < 2.0 * reach) level++;
+    mark(args.marks, query.position, args.cellWidth, level);
+}
