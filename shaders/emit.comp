@@ -25,7 +25,7 @@ void main() {
     if (hasGuide != 0u && args.guide != uvec2(0u)) sparse = guide(GuideNodePtr(args.guide), numbers);
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
-    Light light = LightPtr(scene.lights).at[chooseLight(scene, numbers[START_LIGHT])];
+    Light light = LightPtr(scene.lights).at[chooseLight(scene, scene.lightCdf, numbers[START_LIGHT])];
     requireLight(scene, light);
     LightPoint point = sampleLight(light, vec2(numbers[START_PLACE], numbers[START_PLACE + 1u]));
     if (isTwoSided(light) && numbers[START_SIDE] < 0.5) point.normal = -point.normal;

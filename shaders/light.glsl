@@ -7,16 +7,22 @@ struct LightPoint {
 };
 
 // The light whose part of the unit interval holds u.
-uint chooseLight(DeviceScene scene, float u) {
+uint chooseLight(DeviceScene scene, uvec2 cdf, float u) {
     if (hasManyLights == 0u) return 0u;
     uint low = 0u;
     uint high = scene.lightCount - 1u;
     while (low < high) {
         uint middle = (low + high) / 2u;
-        if (u < floatPtr(scene.lightCdf).at[middle]) high = middle;
+        if (u < floatPtr(cdf).at[middle]) high = middle;
         else low = middle + 1u;
     }
     return low;
+}
+
+// The probability of being chosen.
+float lightProbability(uvec2 cdf, uint light) {
+    if (hasManyLights == 0u) return 1.0;
+    return floatPtr(cdf).at[light] - (light > 0u ? floatPtr(cdf).at[light - 1u] : 0.0);
 }
 
 bool isSphere(Light light) {

@@ -185,7 +185,6 @@ struct Light {
     uint kind;
     uint twoSided;
     float area;
-    float probability; // of being chosen, in proportion to the luminance of its flux
 };
 BUFFER(Light)
 
@@ -214,7 +213,8 @@ struct DeviceScene {
     ADDRESS(Normals) normals;
     ADDRESS(Material) materials;
     ADDRESS(Light) lights;
-    ADDRESS(float) lightCdf; // upper ends, the last is 1
+    ADDRESS(float) lightCdf;  // of photons: upper ends, the last is 1
+    ADDRESS(float) directCdf; // of light samples, likewise
     ADDRESS(Target) targets;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
     Target lit; // about all that light falls upon
@@ -704,6 +704,16 @@ struct MarkArgs {
     PTR(uint) marks;
     float cellWidth; // of the finest level
     float reach;     // part of a query's footprint that it marks, if that is more than the map's radius there
+};
+
+struct WeighArgs {
+    PTR(DeviceScene) scene;
+    PTR(Split) splits;
+    PTR(float) values; // [split][light of it]: luminance that it brings
+    uint count; // of values
+    uint lightsEach; // lights that a split is asked about
+    uint stride; // one split of so many is asked
+    uint seed;
 };
 
 struct UsefulArgs {

@@ -159,8 +159,6 @@ std::string faultOf(const Scene& scene) {
     if (!allFinite(scene.nodes, 12) && scene.nodes.size() > 1) return "a node is not finite";
     if (!std::ranges::is_sorted(scene.lightCdf) || scene.lightCdf.back() != 1 || scene.lightCdf.front() < 0)
         return "the lights' CDF";
-    for (const Light& light : scene.lights)
-        if (!(light.probability >= 0 && light.probability <= 1)) return "a light's probability";
     for (const Primitive& p : scene.primitives)
         if (p.material >= scene.materials.size() || (p.light != NONE && p.light >= scene.lights.size()) ||
             (p.normals != NONE && p.normals >= scene.normals.size()))

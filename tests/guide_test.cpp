@@ -314,6 +314,14 @@ TEST(Guide, LampsOfOtherRoomsGetFewPhotons) {
     EXPECT_LT(guided.variance, uniform.variance * 0.7);
 }
 
+TEST(Guide, LightSamplesGoWhereLightComesFrom) {
+    const Scene scene = rooms();
+    const Spread guided = spreadOf(scene, smallSettings(scene, true), LAYER_DIRECT);
+    const Spread uniform = spreadOf(scene, smallSettings(scene, false), LAYER_DIRECT);
+    EXPECT_NEAR(zScore(guided.mean, uniform.mean), 0, 4) << guided.mean.mean << " " << uniform.mean.mean;
+    EXPECT_LT(guided.variance, uniform.variance / 2);
+}
+
 TEST(Guide, FeatureTellsWhetherThereIsOne) {
     const auto guides = [](const Scene& scene, bool wanted) {
         Renderer renderer(testGpu(), scene, smallSettings(scene, wanted));

@@ -11,7 +11,7 @@ using glm::dvec3;
 const vec3 white{1, 1, 1};
 
 Light rectangle(vec3 a, vec3 u, vec3 v) {
-    return {.a = a, .u = u, .v = v, .radiance = white, .kind = LIGHT_RECTANGLE, .area = glm::length(glm::cross(u, v)), .probability = 1};
+    return {.a = a, .u = u, .v = v, .radiance = white, .kind = LIGHT_RECTANGLE, .area = glm::length(glm::cross(u, v))};
 }
 
 TestScene sceneWith(std::vector<Light> lights, std::vector<float> cdf = {1}) {
@@ -97,7 +97,7 @@ TEST(Light, TrianglesAreSampledUniformly) {
 }
 
 TEST(Light, SpheresAreSampledUniformly) {
-    const Light light{.a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi), .probability = 1};
+    const Light light{.a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi)};
     Histogram histogram(16, 16);
     for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 3))) {
         const dvec3 n = (dvec3(y.position) - dvec3(light.a)) * 2.0;
@@ -111,7 +111,7 @@ TEST(Light, SpheresAreSampledUniformly) {
 
 Light sphereLight(vec3 center, float radius) {
     const float area = float(4 * pi) * radius * radius;
-    return {.a = center, .u = {radius, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = area, .probability = 1};
+    return {.a = center, .u = {radius, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = area};
 }
 
 std::vector<SeenValues> seenPoints(const Light& light, vec3 origin, uint count) {

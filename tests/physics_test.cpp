@@ -94,7 +94,7 @@ TEST(PhotonLedger, StoredFluxIsTheGeometricSeries) {
 
 json rectangle(json corner, json u, json v) { return {{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}}; }
 
-// Fraction of a lamp's photons that arrive at a black receiver.
+// Fraction of a lamp's flux that arrives at a black receiver. Photons of a lamp far away are aimed at it, and weigh less.
 double formFactor(json lamp, json receiver, uint photons) {
     lamp["emission"] = 1;
     receiver["material"] = "black";
@@ -102,9 +102,14 @@ double formFactor(json lamp, json receiver, uint photons) {
                      {"film", {{"size", {4, 4}}}},
                      {"materials", {{"black", {{"type", "diffuse"}, {"albedo", 0}}}}},
                      {"shapes", {receiver, lamp}}};
-    const PhotonLedger ledger = ledgerOf(scene, photons);
+    const Scene loaded = loadJson(scene);
+    const UploadedScene uploaded(testGpu(), loaded, loaded.settings);
+    PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(loaded, loaded.settings), MapKind::global, photons, 0, 1u << 17);
+    const PhotonLedger ledger = tracing.trace(0);
     EXPECT_EQ(ledger.emitted, ledger.absorbed + ledger.escaped + ledger.lost);
-    return double(ledger.stored) / double(ledger.emitted);
+    double flux = 0;
+    for (const Photon& photon : tracing.photons.download(ledger.stored)) flux += double(photon.color.y);
+    return flux / double(ledger.emitted);
 }
 
 TEST(FormFactor, FacingSquares) {

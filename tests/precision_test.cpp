@@ -280,7 +280,7 @@ TEST(Precision, SolidAngle) {
     for (int i = 0; i < 100'000; i++)
         xs.push_back({{random.between(-1.5f, 1.5f), random.between(-1.5f, 1.5f), std::exp2(random.between(-12, 0.5f))}, {0.5f, 0.5f, 0}});
     Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
-    scene.lights = {{.a = {-0.5f, -0.5f, 0}, .u = {1, 0, 0}, .v = {0, 1, 0}, .radiance = vec3(1), .kind = LIGHT_RECTANGLE, .area = 1, .probability = 1}};
+    scene.lights = {{.a = {-0.5f, -0.5f, 0}, .u = {1, 0, 0}, .v = {0, 1, 0}, .radiance = vec3(1), .kind = LIGHT_RECTANGLE, .area = 1}};
     scene.lightCdf = {1};
     const TestScene onDevice(scene);
     const auto ys = map<SeenValues>("seen_point", xs, {}, onDevice.context());

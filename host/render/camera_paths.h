@@ -42,6 +42,9 @@ public:
     /// Fills `samples` for the pixels from `first` on.
     RayCounts trace(uint pass, uint first, uint count, const PhotonMaps& maps);
 
+    /// Where gather rays of the last range of pixels started, if paths are split.
+    const Buffer<Split>& splitPoints() const { return splits; }
+
     Buffer<float> samples; // [column][capacity]
 
 private:

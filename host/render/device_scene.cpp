@@ -19,7 +19,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
     : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
       primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
-      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,
@@ -27,6 +27,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .materials = materials,
               .lights = lights,
               .lightCdf = lightCdf,
+              .directCdf = directCdf,
               .targets = targets,
               .missing = missing,
               .lit = scene.lit,

@@ -18,6 +18,9 @@ public:
     void look(const View& view, uvec2 size);
     Camera camera() const { return device.camera; }
 
+    /// Light samples choose lights by these upper ends, the last of which is 1; at first they are those of photons.
+    void chooseLights(std::span<const float> cdf) { directCdf.upload(cdf); }
+
     /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
     void requireNothingMissing() const;
 
@@ -32,6 +35,7 @@ private:
     Buffer<Material> materials;
     Buffer<Light> lights;
     Buffer<float> lightCdf;
+    Buffer<float> directCdf;
     Buffer<Target> targets;
     Buffer<uint> missing;
 };

@@ -3,11 +3,15 @@
 #include "scene/lights.h"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace vkpm {
 
-const double eyePaths = 8192;
+const double eyePaths = 8192; // wanted
+const uint mostEyePaths = 1u << 14;
 const uint eyeGatherRays = 1;
+const uint pointsApart = 8, mostLightsEach = 64; // one point of so many is asked about that many lights,
+const uint mostLights = 1024;                    // so that each is asked about at 64 points
 const uint firstPhotons = 1u << 13, morePhotons = 1u << 15; // of the first and of other rounds
 const uint mostRounds = 4;
 const std::size_t enoughToTell = 30, enoughPlaces = 1000; // where photons were seen: to tell whether a guide is of use, and to make it
@@ -26,7 +30,7 @@ static Settings smallPicture(Settings settings) {
 static float finestCells(const PhotonMap& map) { return 2 * std::ldexp(map.radius, -static_cast<int>(map.levels)); }
 
 EyePlaces::EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps)
-    : marks{.kernel = {gpu, "mark", features}} {
+    : marks{.kernel = {gpu, "mark", features}}, paths(gpu, scene, features, smallPicture(settings), mostEyePaths) {
     Recording recording(gpu);
     for (EyeMarks::Map* map : {&marks.global, &marks.caustic}) {
         map->bits = Buffer<uint>(gpu, "eye marks", MARK_WORDS + 1);
@@ -34,8 +38,6 @@ EyePlaces::EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& featu
         recording.clear(map->bits);
     }
     recording.submit();
-    const Settings small = smallPicture(settings);
-    CameraPaths paths(gpu, scene, features, small, small.size.x * small.size.y);
     PhotonMaps marked = maps;
     marked.marks = &marks;
     paths.trace(NONE, 0, paths.capacity(), marked);
@@ -46,6 +48,7 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[START_LIGHT] = scene.lights.size() > 1;
     axes[START_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[START_TARGET] = scene.targets.size() > 1;
+    lights = axes[START_LIGHT] && scene.lights.size() <= mostLights;
     global = axes[START_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
 }
 
@@ -76,6 +79,47 @@ Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features,
         guide.density = static_cast<float>(tree.density);
     }
     return guide;
+}
+
+/// Roots of the mean squares of what lights bring to a point, in parts of all light there; dim points, where nobody sees noise, count
+/// less. Two answers that a light brings what its flux lets expect stand for what was not asked.
+static std::vector<double> lightWeights(std::span<const float> values, std::span<const float> cdf, std::size_t each) {
+    const std::size_t lights = cdf.size();
+    std::vector<double> all(values.size() / each), squares(lights), asked(lights);
+    double mean = 0, found = 0, expected = 0;
+    for (std::size_t i = 0; i < values.size(); i++) all[i / each] += double(values[i]) * double(lights) / double(each);
+    for (const double light : all) mean += light / double(all.size());
+    const auto flux = [&](std::size_t light) { return double(cdf[light]) - (light > 0 ? double(cdf[light - 1]) : 0); };
+    for (std::size_t i = 0; i < values.size() && mean > 0; i++) {
+        const double part = values[i] / (all[i / each] + 0.1 * mean);
+        squares[i % lights] += part * part;
+        asked[i % lights]++;
+        found += part * part;
+        expected += flux(i % lights) * flux(i % lights);
+    }
+    std::vector<double> weights(lights);
+    for (std::size_t i = 0; i < lights; i++) weights[i] = std::sqrt((squares[i] + 2 * flux(i) * flux(i) * (found > 0 ? found / expected : 1)) / (asked[i] + 2));
+    return weights;
+}
+
+std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const EyePlaces& places, std::span<const float> byFlux) {
+    const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, mostLightsEach);
+    const uint points = static_cast<uint>(places.paths.splitPoints().size()) / pointsApart;
+    std::vector<float> cdf(byFlux.begin(), byFlux.end());
+    const Buffer<float> values(gpu, "light values", std::uint64_t(points) * each);
+    const Kernel<WeighArgs> weigh(gpu, "weigh", features);
+    Recording recording(gpu);
+    recording.run(weigh, values.size(), {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
+    recording.submit();
+    const std::vector<double> weights = lightWeights(values.download(), byFlux, each);
+
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    double sum = 0;
+    for (uint i = 0; i + 1 < lights; i++) {
+        sum += weights[i];
+        cdf[i] = static_cast<float>(std::min(0.9 * sum / total + 0.1 * double(byFlux[i]), 1.0));
+    }
+    return cdf;
 }
 
 } // namespace vkpm

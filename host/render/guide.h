@@ -13,6 +13,7 @@ public:
     EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps);
 
     EyeMarks marks;
+    CameraPaths paths;
 };
 
 /// What of guiding a scene can make use of.
@@ -21,6 +22,7 @@ struct GuideNeeds {
 
     std::array<bool, START_NUMBERS> axes; // numbers that matter
     bool global;                          // photons of the global map, which go everywhere if there is one lamp and it is near
+    bool lights;                          // light samples, if there are lights to choose from
 };
 
 /// What was learned of the photons of a map.
@@ -32,5 +34,9 @@ struct Guide {
 
 /// Learns in some rounds which photons to start, each with the guide of those before; stops after the first if there is little to gain.
 Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const EyeMarks& marks);
+
+/// Upper ends of the parts of the unit interval by which light samples choose lights: in proportion to the root of the mean square
+/// of what each brings to the places, in parts of all light there. Lights get a tenth by flux, whose CDF is `byFlux`.
+std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const EyePlaces& places, std::span<const float> byFlux);
 
 } // namespace vkpm

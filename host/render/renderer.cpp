@@ -29,7 +29,7 @@ static Features withAllLayers(const Scene& scene, Settings settings) {
 }
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waveSizes)
-    : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)), guideNeeds(input), scene(gpu, input, settings),
+    : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)), guideNeeds(input), lightCdf(input.lightCdf), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
       waves(waveSizes), global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
     constructCamera();
@@ -77,6 +77,7 @@ void Renderer::look(const View& view, uvec2 size) {
     for (std::optional<MapStages>* stages : {&global, &caustic})
         if (*stages) (*stages)->ledger = {}, (*stages)->forget();
     if (light) light->ledger = {};
+    weighed = false;
 }
 
 PhotonLedger Renderer::photons(MapKind kind) const {
@@ -145,11 +146,14 @@ void Renderer::guidePhotons() {
         }
     };
     const auto learns = [&](const std::optional<MapStages>* stages) { return mayGuide(*stages) && !(*stages)->guide; };
-    if (std::ranges::any_of(maps, learns)) {
+    const bool weighs = settings.guides && settings.integrator == INTEGRATOR_PHOTON && guideNeeds.lights && !weighed && asksLights(eyeHas, settings);
+    if (weighs || std::ranges::any_of(maps, learns)) {
         measure();
         const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic)});
         for (std::optional<MapStages>* stages : maps)
             if (learns(stages)) (*stages)->follow(learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
+        if (weighs) scene.chooseLights(learnLights(gpu, scene, eyeHas, settings.seed, places, lightCdf));
+        weighed = true;
     }
     measure();
 }

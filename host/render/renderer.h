@@ -81,6 +81,8 @@ private:
     Features eyeHas; // were all layers asked for
     Extent extent;
     GuideNeeds guideNeeds;
+    std::vector<float> lightCdf; // by flux
+    bool weighed = false;        // whether it is known which lights count, see learnLights
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
     WaveSizes waves;

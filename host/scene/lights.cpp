@@ -27,13 +27,9 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
         refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
     double sum = 0;
-    float low = 0;
-    for (Light& light : scene.lights) {
+    for (const Light& light : scene.lights) {
         sum += luminance(lightFlux(light));
-        const float high = &light == &scene.lights.back() ? 1.0f : static_cast<float>(std::min(sum / total, 1.0));
-        light.probability = high - low;
-        scene.lightCdf.push_back(high);
-        low = high;
+        scene.lightCdf.push_back(&light == &scene.lights.back() ? 1.0f : static_cast<float>(std::min(sum / total, 1.0)));
     }
 }
 

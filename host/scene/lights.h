@@ -10,8 +10,8 @@ double luminance(glm::dvec3 color);
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 
-/// Fills `flux`, `lightCdf` and the lights' probabilities. The probability of a light is the difference of its two
-/// entries of the CDF, in proportion to its luminance but for their rounding. Throws InputError, naming `file`, if
+/// Fills `flux` and `lightCdf`. The probability of a light is the difference of its two entries of the CDF, in proportion to its
+/// luminance but for their rounding. Throws InputError, naming `file`, if
 /// no light emits or the flux is beyond the range of float.
 void chooseLights(Scene& scene, const std::filesystem::path& file);
 

@@ -5,4 +5,4 @@
 #include "sampling.glsl"
 #include "light.glsl"
 
-MAP(float, uint, chooseLight(args.scene.at[0], x))
+MAP(float, uint, chooseLight(args.scene.at[0], args.scene.at[0].lightCdf, x))

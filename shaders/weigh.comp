@@ -1,0 +1,30 @@
+// What lights bring to points that the eye sees: to each of some points, some lights.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "frame.glsl"
+#include "offset.glsl"
+#include "light.glsl"
+#include "seen.glsl"
+#include "features.glsl"
+#include "direct.glsl"
+#include "sphere.glsl"
+#include "intersect.glsl"
+#include "traverse.glsl"
+
+ARGS(WeighArgs)
+
+void main() {
+    uint i = threadIndex();
+    if (i >= args.count) return;
+    DeviceScene scene = args.scene.at[0];
+    Split from = args.splits.at[i / args.lightsEach * args.stride];
+    args.values.at[i] = 0.0;
+    if (from.flags == NONE) return;
+    Sampler s = pixelSampler(i, 0u, args.seed, SAMPLES_EYE);
+    ShadowRay ray = sampleDirectOf(LightPtr(scene.lights).at[i % scene.lightCount], 1.0, from.origin, from.from, from.normal, from.shading,
+        from.throughput, 0u, sample2(s, 0u));
+    if (luminance(ray.radiance) > 0.0 && !occluded(scene, ray.origin, ray.target, ray.from)) args.values.at[i] = luminance(ray.radiance);
+}
