@@ -38,6 +38,13 @@ def tiny_lamp(lab: Lab) -> Verdict:
     return Verdict(render, tame, *same_means(render, tame, 0.02, ("direct", "indirect", "caustic")))
 
 
+@case("light", "a lamp of the size and distance of the sun over the open room", "direct and indirect light of the path tracer, within 2 %")
+def sun(lab: Lab) -> Verdict:
+    room = without(BOX, LAMP, "ceiling", "mirror ball", "glass ball")
+    lamp = sphere([200, 1000, 400], 5, emission=[17000, 12000, 4000])
+    return against_path(lab, plus(room, lamp), 0.02, layers=("direct", "indirect"))
+
+
 @case("light", "the whole ceiling shines", "each layer's mean of the path tracer within 2 %")
 def whole_ceiling(lab: Lab) -> Verdict:
     ceiling = rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], emission=[1, 1, 1], material="white")

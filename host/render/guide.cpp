@@ -13,7 +13,7 @@ const uint eyeGatherRays = 1;
 const uint pointsApart = 8, mostLightsEach = 64; // one point of so many is asked about that many lights,
 const uint mostLights = 1024;                    // so that each is asked about at 64 points
 const uint firstPhotons = 1u << 13, morePhotons = 1u << 15; // of the first and of other rounds
-const uint mostRounds = 4;
+const uint mostRounds = 3;
 const std::size_t enoughToTell = 30, enoughPlaces = 1000; // where photons were seen: to tell whether a guide is of use, and to make it
 const double leastGain = 1.3; // for which photons are guided
 
@@ -111,8 +111,9 @@ std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Featu
     Recording recording(gpu);
     recording.run(weigh, values.size(), {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
     recording.submit();
-    const std::vector<double> weights = lightWeights(values.download(), byFlux, each);
-
+    std::vector<float> brought = values.download();
+    std::ranges::replace_if(brought, [](float value) { return !std::isfinite(value); }, 0.0f);
+    const std::vector<double> weights = lightWeights(brought, byFlux, each);
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     double sum = 0;
     for (uint i = 0; i + 1 < lights; i++) {

@@ -19,10 +19,10 @@ struct Sample {
     std::array<float, START_NUMBERS> numbers;
     float all;    // their density over that with which it was started
     float cost;
-    float useful; // square of what it adds
+    double useful; // square of what it adds, which may be a far light's 10^-40
 
     explicit Sample(const Start& start)
-        : all(start.sparse), cost(all * costOf(start)), useful(all * start.weight * start.weight * float(start.seen)) {
+        : all(start.sparse), cost(all * costOf(start)), useful(double(all) * start.weight * start.weight * start.seen) {
         std::ranges::copy(start.numbers, numbers.begin());
     }
 };
@@ -40,7 +40,7 @@ struct Sums {
         all += sample.all;
         cost += sample.cost;
         useful += sample.useful;
-        useful2 += double(sample.useful) * sample.useful;
+        useful2 += sample.useful * sample.useful;
     }
     /// Useful photons, were all alike.
     double effective() const { return useful2 > 0 ? useful * useful / useful2 : 0; }
