@@ -19,8 +19,7 @@ ivec3 cellOf(vec3 position, float cellsPerUnit, uint level) {
 
 // The key of a cell at a level, without the octants of the levels below.
 uint cellKey(ivec3 cell, uint level) {
-    uvec3 block = uvec3(cell >> (level + 1u));
-    uint key = hash(block.x ^ hash(block.y ^ hash(block.z)));
+    uint key = hash(uvec3(cell >> (level + 1u)));
     for (uint l = 0u; l <= level; l++) key = key << 3 | octant(cell >> (level - l));
     return key;
 }

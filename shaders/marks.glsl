@@ -2,7 +2,7 @@
 // random.glsl. Cells of level l are 2^l times as wide as the finest.
 
 uint markHash(ivec3 cell, uint level) {
-    return hash(uint(cell.x) ^ hash(uint(cell.y) ^ hash(uint(cell.z) ^ hash(level))));
+    return hash(uvec3(cell) ^ uvec3(0u, 0u, hash(level)));
 }
 
 ivec3 markedCell(vec3 position, float width) {

@@ -2,7 +2,7 @@
 // map's radius; needs random.glsl.
 
 uint fieldSlot(ivec3 cell, uint mask) {
-    return hash(uint(cell.x) ^ hash(uint(cell.y) ^ hash(uint(cell.z)))) & mask;
+    return hash(uvec3(cell)) & mask;
 }
 
 // Interpolated between the middles of the eight cells around a point, of those that have a value. Elsewhere the map's radius.

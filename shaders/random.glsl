@@ -15,6 +15,10 @@ uint hash(uint x) {
     return x;
 }
 
+uint hash(uvec3 v) {
+    return hash(v.x ^ hash(v.y ^ hash(v.z)));
+}
+
 uint hash(uint a, uint b) {
     return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));
 }

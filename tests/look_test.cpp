@@ -45,14 +45,6 @@ void expectSame(const Rendered& a, const Rendered& b) {
     EXPECT_EQ(a.caustic.rays, b.caustic.rays);
 }
 
-/// The ring's cusp from nearby: photons are guided.
-Scene cusp() {
-    Scene scene = shippedScene("ring");
-    scene.view.target = {-0.3f, 0, 0.1f};
-    scene.view.fieldOfView = glm::radians(6.0f);
-    return scene;
-}
-
 void expectAsIfNew(const Scene& scene) {
     for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_LIGHT, INTEGRATOR_PHOTON_MAP}) {
         const Settings settings = settingsFor(scene, integrator);
@@ -69,10 +61,10 @@ void expectAsIfNew(const Scene& scene) {
 TEST(Look, AnotherViewOrSizeIsAsIfNew) { expectAsIfNew(shippedScene("box")); }
 
 TEST(Look, GuidesFollowTheView) {
-    expectAsIfNew(cusp());
+    expectAsIfNew(ringCusp());
 
     // From a guide to none and back.
-    const Scene near = cusp(), far = shippedScene("ring");
+    const Scene near = ringCusp(), far = shippedScene("ring");
     const Settings settings = settingsFor(near, INTEGRATOR_PHOTON);
     Renderer renderer(testGpu(), near, settings);
     for (const Scene* scene : {&near, &far, &near}) {
@@ -111,7 +103,7 @@ void expectAsIfNewAfterCancelled(const Scene& scene) {
 
 TEST(Look, AfterCancelledItIsAsIfNew) { expectAsIfNewAfterCancelled(shippedScene("box")); }
 
-TEST(Look, AfterCancelledGuidesAreAsIfNew) { expectAsIfNewAfterCancelled(cusp()); }
+TEST(Look, AfterCancelledGuidesAreAsIfNew) { expectAsIfNewAfterCancelled(ringCusp()); }
 
 } // namespace
 } // namespace vkpm

@@ -61,4 +61,12 @@ inline double zScore(Estimate a, Estimate b) { return (a.mean - b.mean) / std::h
 
 inline Scene shippedScene(const std::string& name) { return loadScene(std::filesystem::path(VKPM_SCENES) / (name + ".json")); }
 
+/// The ring's cusp from nearby: most of its caustic is out of sight, so that photons are guided.
+inline Scene ringCusp() {
+    Scene scene = shippedScene("ring");
+    scene.view.target = {-0.3f, 0, 0.1f};
+    scene.view.fieldOfView = glm::radians(6.0f);
+    return scene;
+}
+
 } // namespace vkpm

@@ -17,7 +17,7 @@ struct EyeMarks {
     Map caustic{};
 };
 
-/// The photon maps of a pass; one that the scene does not need has no cells.
+/// The photon maps of a pass; one that the scene does not need has radius 0.
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};

@@ -129,14 +129,9 @@ static PhotonMap mapOf(const std::optional<MapStages>& stages) {
     return map;
 }
 
-/// Whether photons may be wasted on what the eye does not see.
-bool Renderer::mayGuide(const std::optional<MapStages>& stages) const {
-    if (!settings.guides || settings.integrator != INTEGRATOR_PHOTON || !stages) return false;
-    return stages->kind == MapKind::caustic || guideNeeds.global;
-}
-
 /// Learns where to send photons, once for a view. Each stage is either as it was or done when a render is cancelled.
 void Renderer::guidePhotons() {
+    if (!settings.guides || settings.integrator != INTEGRATOR_PHOTON) return;
     const std::array maps{&global, &caustic};
     const auto measure = [&] {
         for (std::optional<MapStages>* stages : maps) {
@@ -145,8 +140,10 @@ void Renderer::guidePhotons() {
             (*stages)->measured = true;
         }
     };
-    const auto learns = [&](const std::optional<MapStages>* stages) { return mayGuide(*stages) && !(*stages)->guide; };
-    const bool weighs = settings.guides && settings.integrator == INTEGRATOR_PHOTON && guideNeeds.lights && !weighed && asksLights(eyeHas, settings);
+    const auto learns = [&](const std::optional<MapStages>* stages) {
+        return *stages && !(*stages)->guide && ((*stages)->kind == MapKind::caustic || guideNeeds.global);
+    };
+    const bool weighs = guideNeeds.lights && !weighed && asksLights(eyeHas, settings);
     if (weighs || std::ranges::any_of(maps, learns)) {
         measure();
         const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic)});

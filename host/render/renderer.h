@@ -70,7 +70,6 @@ private:
     std::optional<MapStages> construct(MapKind kind);
     void checkRadius(MapStages& stages, std::string_view name);
     void measureRadii(MapStages& stages);
-    bool mayGuide(const std::optional<MapStages>& stages) const;
     void guidePhotons();
     void constructCamera();
     void buildMap(std::optional<MapStages>& stages, uint pass);
