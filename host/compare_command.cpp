@@ -94,7 +94,7 @@ static void printTable(const Json& layers) {
     }
 }
 
-static void print(const Json& comparison) {
+static void printComparison(const Json& comparison) {
     printTable(comparison["layers"]);
     for (const auto& [key, where] : {std::pair("only_in_image", "image"), std::pair("only_in_reference", "reference")})
         if (!comparison[key].empty())
@@ -109,7 +109,7 @@ int compare(const Options& options) {
     const Json comparison = measure(options, image, reference);
     // A file's name may be no UTF-8.
     if (options.json) fmt::print("{}\n", comparison.dump(2, ' ', false, Json::error_handler_t::replace));
-    else print(comparison);
+    else printComparison(comparison);
     return 0;
 }
 

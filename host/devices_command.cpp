@@ -22,7 +22,7 @@ static nlohmann::ordered_json describe(std::size_t index, const DeviceInfo& info
     return device;
 }
 
-static void print(const nlohmann::ordered_json& device) {
+static void printDevice(const nlohmann::ordered_json& device) {
     fmt::print("{}: {}\n   driver {}, Vulkan {}, subgroups of {}, {:.1f} GiB\n", device["index"].get<int>(),
                device["name"].get<std::string>(), device["driver"].get<std::string>(), device["vulkan"].get<std::string>(),
                device["subgroup_size"].get<int>(), device["memory_bytes"].get<double>() / 1073741824);
@@ -37,7 +37,7 @@ int showDevices(const Options& options) {
     const std::vector<DeviceInfo> infos = listDevices();
     for (std::size_t i = 0; i < infos.size(); i++) devices.push_back(describe(i, infos[i]));
     if (options.json) fmt::print("{}\n", devices.dump(2));
-    else for (const auto& device : devices) print(device);
+    else for (const auto& device : devices) printDevice(device);
     if (infos.empty()) throw GpuError("no Vulkan device; install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers)");
     return 0;
 }

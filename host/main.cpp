@@ -3,6 +3,7 @@
 #include "options.h"
 #include "output/interrupt.h"
 #include "gpu/gpu.h"
+#include "gpu/process_limits.h"
 #include "scene/scene.h"
 #include <cerrno>
 #include <cstdio>
@@ -28,6 +29,7 @@ static int run(const Options& options) {
 
 int main(int count, char** arguments) {
     try {
+        heedLimits();
         catchInterrupts();
         const int code = run(parseOptions(count, arguments));
         if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::system_error(errno, std::generic_category(), "standard output: write");

@@ -2,6 +2,9 @@
 #include "options.h"
 #include "option_parser.h"
 #include "output/layer_error.h"
+#include "output/report.h"
+#include "output/used_files.h"
+#include <array>
 
 namespace vkpm {
 namespace {
@@ -137,13 +140,7 @@ void requirePhotonMap(const Options& options, uint integrator) {
 void requireRender(Options& options) {
     if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.command == Command::View ? " view" : ""));
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
-    const auto differ = [](const char* name, const std::optional<fs::path>& file, const char* otherName, const std::optional<fs::path>& other) {
-        if (file && other && file->lexically_normal() == other->lexically_normal())
-            refuse(name, file->string(), fmt::format("a file other than that of {}", otherName));
-    };
-    differ("--stats", options.stats, "--output", options.output);
-    differ("--log", options.log, "--output", options.output);
-    differ("--log", options.log, "--stats", options.stats);
+    requireFilesApart(options, std::array{options.scene});
     if (options.passRange && options.passes && options.passRange->end > *options.passes)
         refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
                fmt::format("passes below the {} of --passes", *options.passes));
@@ -278,6 +275,19 @@ Settings Options::override(Settings settings) const {
     if (targetError && (settings.layers & (1u << ASK_NOISE | 1u << ASK_BIAS)) != (1u << ASK_NOISE | 1u << ASK_BIAS))
         throw InputError("--target-error: needs the layers noise and bias; allowed: with all layers, or with both in --layers");
     return settings;
+}
+
+fs::path pngBeside(fs::path exr) { return exr.replace_extension(".png"); }
+
+void requireFilesApart(const Options& options, std::span<const fs::path> sceneFiles) {
+    std::vector<UsedFile> written{{"--output", options.output}, {"--output's PNG", pngBeside(options.output)}}, read;
+    if (options.stats) written.push_back({"--stats", *options.stats});
+    if (options.log) written.push_back({"--log", *options.log});
+    if (options.report)
+        for (const char* name : Report::files) written.push_back({"--report", *options.report / name});
+    for (const fs::path& file : sceneFiles) read.push_back({file == sceneFiles[0] ? "the scene" : "a mesh of the scene", file});
+    if (options.reference) read.push_back({"--reference", *options.reference});
+    requireApart(written, read);
 }
 
 Options parseOptions(int count, const char* const* arguments) {

@@ -3,6 +3,7 @@
 #include "scene/settings.h"
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,12 @@ struct Options {
     /// integrator other than photon-map.
     Settings override(Settings sceneSettings) const;
 };
+
+/// Throws InputError if an output of a render is one of its inputs, `sceneFiles` among them, or another output.
+void requireFilesApart(const Options& options, std::span<const std::filesystem::path> sceneFiles);
+
+/// The PNG that is written beside an EXR file.
+std::filesystem::path pngBeside(std::filesystem::path exr);
 
 /// Reads the command line; main's arguments, the program's name first. Throws InputError with the option, what was
 /// found and what is allowed.

@@ -38,7 +38,7 @@ static Json memoryJson(const Gpu& gpu, const Features& features, const Settings&
     return {{"device_bytes", gpu.peakBytes + more}, {"buffers", buffers}};
 }
 
-static void print(const Json& plan) {
+static void printPlan(const Json& plan) {
     for (const bool needed : {true, false}) {
         fmt::print("{}:\n", needed ? "Needed" : "Left out");
         for (const auto& f : plan["features"])
@@ -65,7 +65,7 @@ int plan(const Options& options) {
                     {"memory", memoryJson(gpu, renderer.features(), settings)}};
     });
     if (options.json) fmt::print("{}\n", plan.dump(2));
-    else print(plan);
+    else printPlan(plan);
     return 0;
 }
 

@@ -4,15 +4,16 @@
 #include "memory_advice.h"
 #include "output/atomic_file.h"
 #include "output/interrupt.h"
+#include "output/messages.h"
 #include "output/progress.h"
 #include "render_job.h"
-#include <fmt/format.h>
 
 namespace vkpm {
 
 static void renderPasses(RenderJob& job, const Options& options) {
     const PassRange passes = job.passesWanted();
     Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), job.restoredPasses(), options.targetError.value_or(0)}, options.quiet);
+    onInterrupt("interrupted: finishing this pass, then saving; once more stops at once", false);
     while (!job.done()) {
         job.renderPass();
         if (job.lastError()) progress.estimate(job.lastError()->error);
@@ -22,8 +23,10 @@ static void renderPasses(RenderJob& job, const Options& options) {
 
 int render(const Options& options) {
     const auto start = Clock::now();
+    onInterrupt("interrupted before the first pass: nothing to save", true);
     const Scene scene = loadScene(options.scene);
-    for (const std::string& warning : scene.warnings) fmt::print(stderr, "vkpm: warning: {}\n", warning);
+    for (const std::string& warning : scene.warnings) warn(warning);
+    requireFilesApart(options, scene.files);
     const Settings settings = options.override(scene.settings);
 
     requireWritable(options.output);
@@ -34,6 +37,7 @@ int render(const Options& options) {
     gpu.timesKernels = options.stats.has_value();
     requireSoundDriver(gpu);
     EventLog log(options.log, options.resume);
+    log.open();
     return adviseOnMemory(gpu, scene, settings, [&] {
         RenderJob job(options, scene, settings, gpu, log, start);
         if (options.resume) job.resume();

@@ -1,5 +1,6 @@
 /// Films to files and back.
 #include "render_file.h"
+#include "options.h"
 #include "gpu/error.h"
 #include "output/exr.h"
 #include "output/film_image.h"
@@ -42,8 +43,6 @@ void restore(Film& film, const RenderFile& file) {
     const Image image = readExr(file.path);
     for (std::size_t i = 0; i < file.runs.size(); i++) film.restore(file.runs[i], named(file.path, [&] { return sumsOf(image, i, file.layers); }));
 }
-
-std::filesystem::path pngBeside(std::filesystem::path exr) { return exr.replace_extension(".png"); }
 
 void saveRender(const std::filesystem::path& output, const Film& film, std::span<const Pixel> pixels, const Settings& settings, std::map<std::string, std::string> attributes) {
     const PassRange passes = film.passes();

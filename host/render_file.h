@@ -9,8 +9,8 @@ namespace vkpm {
 
 /// A render's file of which the header has been read.
 struct RenderFile {
-    std::filesystem::path path;
-    Image header;
+    std::filesystem::path path{};
+    Image header{};
     std::vector<PassRange> runs{};
     uint layers = allLayers; // that were asked for
 
@@ -23,9 +23,6 @@ RenderFile openRender(const std::filesystem::path& file);
 
 /// Gives the film all passes of a file. Throws InputError with file and cause.
 void restore(Film& film, const RenderFile& file);
-
-/// The PNG that is written beside an EXR file.
-std::filesystem::path pngBeside(std::filesystem::path exr);
 
 /// Writes the picture of a film (its pixels as downloaded) with its sums and further attributes, and a PNG beside it; size, layers
 /// and exposure are the settings'.

@@ -3,6 +3,7 @@
 #include "output/film_image.h"
 #include "output/film_runs.h"
 #include "output/interrupt.h"
+#include "output/messages.h"
 #include "render/noise.h"
 #include "render/radius.h"
 #include "scene/explain.h"
@@ -48,6 +49,10 @@ void RenderJob::openReport() {
     if (options.report) report.emplace(*options.report, options.reference, settings.size);
 }
 
+void RenderJob::requireSize(uvec2 size) const {
+    if (report) report->requireSize(size);
+}
+
 std::uint64_t RenderJob::rays() const {
     std::uint64_t count = renderer.rays().paths + renderer.rays().shadow;
     for (const MapKind kind : {MapKind::global, MapKind::caustic}) count += renderer.photons(kind).rays;
@@ -89,7 +94,7 @@ void RenderJob::resume() {
     const RenderFile file = openRender(options.output);
     requireSame(file);
     if (file.attribute("device") != device)
-        fmt::print(stderr, "vkpm: warning: {} was rendered by {}, and goes on on {}: roundings may differ\n", options.output.string(), file.attribute("device"), device);
+        warn(fmt::format("{} was rendered by {}, and goes on on {}: roundings may differ", options.output.string(), file.attribute("device"), device));
     restore(renderer.film, file);
     restored = savedPasses = passCount();
     earlierNonfinite = std::strtoull(file.attribute("nonfinite").c_str(), nullptr, 10);
@@ -170,8 +175,8 @@ void RenderJob::renderPass() {
 
 void RenderJob::sayWhatIsSaved() const {
     const std::string file = options.output.string();
-    if (savedPasses > 0) fmt::print(stderr, "vkpm: {} holds the first {} of {} passes rendered; the same command with --resume goes on from there\n", file, savedPasses, passCount());
-    else if (passCount() > 0) fmt::print(stderr, "vkpm: {} passes are lost; with --checkpoint SECONDS they are saved on the way\n", passCount());
+    if (savedPasses > 0) say("{} holds the first {} of {} passes rendered; the same command with --resume goes on from there", file, savedPasses, passCount());
+    else if (passCount() > 0) say("{} passes are lost; with --checkpoint SECONDS they are saved on the way", passCount());
 }
 
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
@@ -181,7 +186,7 @@ void RenderJob::checkpoint() {
         savedPasses = passCount();
         log.write("checkpoint", {{"file", options.output.string()}, {"passes", passCount()}});
     } catch (const std::runtime_error& failure) {
-        fmt::print(stderr, "vkpm: warning: checkpoint: {}; rendering goes on\n", failure.what());
+        warn(fmt::format("checkpoint: {}; rendering goes on", failure.what()));
         log.write("checkpoint failed", {{"cause", failure.what()}});
     }
     saved = Clock::now();
@@ -215,6 +220,7 @@ Statistics RenderJob::statistics() const {
     s.leftOut = manifest(renderer.features(), settings, false);
     s.error = error;
     s.nonfinite = nonfinite();
+    s.warnings = warnings();
     s.setupSeconds = std::chrono::duration<double>(beginning - start).count();
     s.renderSeconds = renderSeconds;
     s.totalSeconds = secondsSince(start);
@@ -226,15 +232,15 @@ bool RenderJob::finish() {
     if (passCount() == 0) return false;
     if (report) addToReport();
     if (nonfinite())
-        fmt::print(stderr, "vkpm: warning: {} samples were not finite and count as black; see nonfinite in --stats\n", nonfinite());
+        warn(fmt::format("{} samples were not finite and count as black; see nonfinite in --stats", nonfinite()));
     for (const MapKind kind : {MapKind::global, MapKind::caustic})
         if (const std::uint64_t lost = renderer.photons(kind).lost)
-            fmt::print(stderr, "vkpm: warning: {} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light\n", lost, maxBounces);
+            warn(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
     const std::vector<Pixel> pixels = renderer.film.download();
     save(pixels);
     error = estimateOf(pixels);
     if (report) finishReport(pixels);
-    if (error && !options.quiet) fmt::print(stderr, "{}\n", describe(*error));
+    if (error && !options.quiet) writeText(stderr, describe(*error) + "\n");
     log.write("end", {{"file", options.output.string()}, {"passes", passCount()}, {"interrupted", interrupted()}});
     if (options.stats) writeStatistics(*options.stats, statistics());
     return true;

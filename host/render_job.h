@@ -24,6 +24,8 @@ public:
     void resume();
     /// The clock of rendering starts.
     void begin();
+    /// Throws InputError if what it reports about is a picture of another size.
+    void requireSize(uvec2 size) const;
     /// Begins anew after the view of the scene or the size of the settings have changed, or after Cancelled.
     void restart();
 

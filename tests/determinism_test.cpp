@@ -45,7 +45,7 @@ TEST_F(Determinism, DriverThreadsAndLanesDoNotMatter) {
 // The pool's photons are guided by what the host learns from those of the device.
 TEST_F(Determinism, GuidesAreTheSameOnAnyLanes) {
     const Image plain = renderWith("photon", "", "pool");
-    for (const std::string environment : {"LP_NUM_THREADS=1", "LP_NATIVE_VECTOR_WIDTH=128", "LP_NATIVE_VECTOR_WIDTH=512"})
+    for (const std::string environment : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NATIVE_VECTOR_WIDTH=128", "LP_NATIVE_VECTOR_WIDTH=512"})
         expectSameBits(renderWith("photon", environment, "pool"), plain, environment);
 }
 

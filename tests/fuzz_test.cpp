@@ -23,7 +23,7 @@ constexpr double mostSeconds = 1;
 constexpr std::uint64_t inputsByDefault = 100'000;
 #else
 constexpr double mostSeconds = 10; // sanitizers, and other work on the machine
-constexpr std::uint64_t inputsByDefault = 20'000;
+constexpr std::uint64_t inputsByDefault = 5'000;
 #endif
 // A number of two bytes becomes a JSON value of 16, a corner of a face a part of a triangle; Embree has some memory by
 // itself.
@@ -198,12 +198,12 @@ Outcome load(const fs::path& file) {
     }
 }
 
-// The input under way, for a message when the program dies or hangs.
-volatile std::uint64_t current = 0;
+// The input under way and its seed, for a message when the program dies or hangs.
+volatile std::uint64_t current = 0, currentSeed = 0;
 
 void onSignal(int signal) {
-    std::fprintf(stderr, "input %llu: signal %d; VKPM_FUZZ_FIRST=%llu repeats it\n",
-                 static_cast<unsigned long long>(current), signal, static_cast<unsigned long long>(current));
+    std::fprintf(stderr, "input %llu: signal %d; VKPM_FUZZ_SEED=%llu VKPM_FUZZ_FIRST=%llu repeats it\n", static_cast<unsigned long long>(current), signal,
+                 static_cast<unsigned long long>(currentSeed), static_cast<unsigned long long>(current));
     std::_Exit(1);
 }
 
@@ -236,6 +236,7 @@ std::string run(const Input& input, bool& accepted, Worst& worst) {
 TEST(Fuzz, DamagedScenesAreLoadedWholeOrRefusedByPlace) {
     const std::uint64_t count = setting("VKPM_FUZZ_INPUTS", inputsByDefault), seed = setting("VKPM_FUZZ_SEED", 1),
                         first = setting("VKPM_FUZZ_FIRST", 0);
+    currentSeed = seed;
     for (const int signal : {SIGALRM, SIGSEGV, SIGABRT, SIGFPE}) std::signal(signal, onSignal);
     Inputs inputs;
     std::uint64_t accepted = 0, faults = 0;

@@ -99,19 +99,43 @@ TEST(Progress, RedrawsOneLineOnATerminalAndEndsIt) {
 
 TEST(InterruptDeathTest, TheFirstSetsAFlagTheSecondKills) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const auto interruptOnce = [] {
+    const auto interruptOnce = [](int signal) {
         catchInterrupts();
+        onInterrupt("saving", false);
         if (interrupted()) std::_Exit(1);
-        std::raise(SIGTERM);
+        std::raise(signal);
         std::_Exit(interrupted() ? 0 : 2);
     };
     const auto interruptTwice = [] {
         catchInterrupts();
+        onInterrupt("saving", false);
         std::raise(SIGINT);
         std::raise(SIGINT);
     };
-    EXPECT_EXIT(interruptOnce(), testing::ExitedWithCode(0), "interrupted");
-    EXPECT_EXIT(interruptTwice(), testing::KilledBySignal(SIGINT), "interrupted");
+    const auto hangUpTwice = [] {
+        catchInterrupts();
+        onInterrupt("saving", false);
+        std::raise(SIGHUP); // a terminal that is closed, and then its shell
+        std::raise(SIGHUP);
+        std::_Exit(interrupted() ? 0 : 2);
+    };
+    const auto withoutAHangUp = [] { // under nohup
+        std::signal(SIGHUP, SIG_IGN);
+        catchInterrupts();
+        onInterrupt("saving", false);
+        std::raise(SIGHUP);
+        std::_Exit(interrupted() ? 2 : 0);
+    };
+    const auto tooEarly = [] {
+        catchInterrupts();
+        onInterrupt("nothing to save", true);
+        std::raise(SIGHUP);
+    };
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) EXPECT_EXIT(interruptOnce(signal), testing::ExitedWithCode(0), "vkpm: saving");
+    EXPECT_EXIT(hangUpTwice(), testing::ExitedWithCode(0), "vkpm: saving");
+    EXPECT_EXIT(withoutAHangUp(), testing::ExitedWithCode(0), "");
+    EXPECT_EXIT(tooEarly(), testing::ExitedWithCode(130), "vkpm: nothing to save");
+    EXPECT_EXIT(interruptTwice(), testing::KilledBySignal(SIGINT), "vkpm: saving");
     EXPECT_FALSE(interrupted());
 }
 

@@ -60,7 +60,7 @@ class Parts:
 
     def spans(self) -> list[Span]:
         """The passes of the parts that are there, in order."""
-        names = [file.stem.split("-") for file in self.folder.glob("*.exr")]
+        names = [file.stem.split("-") for file in self.folder.glob("*-*.exr")]
         return sorted((int(begin), int(end)) for begin, end in names)
 
     def add(self, span: Span, content: bytes) -> None:
@@ -73,8 +73,10 @@ class Parts:
     def merge(self, vkpm: Path, output: Path) -> int:
         """Merges all parts, removes them, and returns vkpm's exit code."""
         names = [f"{begin}-{end}.exr" for begin, end in self.spans()]
-        code = subprocess.run([vkpm, "merge", output, *names], cwd=self.folder).returncode
+        code = subprocess.run([vkpm, "merge", "whole.exr", *names], cwd=self.folder).returncode
         if code == 0:
+            for whole, target in ((self.folder / "whole.exr", output), (self.folder / "whole.png", output.with_suffix(".png"))):
+                whole.replace(target.resolve())
             shutil.rmtree(self.folder)
             if not any(self.folder.parent.iterdir()):
                 self.folder.parent.rmdir()

@@ -1,7 +1,7 @@
 /// A scene in Embree: the independent oracle of rays, and the yardstick of their speed.
 #pragma once
+#include "scene/embree.h"
 #include "scene/scene.h"
-#include <embree3/rtcore.h>
 
 namespace vkpm {
 
@@ -32,9 +32,7 @@ public:
         query.ray = ray(origin, direction, std::numeric_limits<float>::infinity());
         query.ray.tnear = tMin;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene, &context, &query);
+        intersectOne(scene, query);
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {query.ray.tfar, NONE, vec2{0}};
         const uint first = query.hit.geomID == SPHERES ? triangleCount : 0;
         return {query.ray.tfar, first + query.hit.primID, {query.hit.u, query.hit.v}};
@@ -43,9 +41,7 @@ public:
     /// Whether anything stands between two points.
     bool occluded(vec3 origin, vec3 target) const {
         RTCRay query = ray(origin, target - origin, 1);
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded1(scene, &context, &query);
+        occludedOne(scene, query);
         return query.tfar < 0;
     }
 

@@ -1,5 +1,6 @@
 /// Whole renders, timed from the scene file on.
 #include "bench/features.h"
+#include "bench/measure.h"
 #include "gpu/audit.h"
 #include "render/renderer.h"
 #include <algorithm>
@@ -12,11 +13,6 @@ namespace {
 
 constexpr int turns = 5;
 constexpr uint passes = 5;
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
 
 ProgramCost renderOnce(const std::filesystem::path& file, const std::string& device, bool allFeatures) {
     const auto start = std::chrono::steady_clock::now();

@@ -9,7 +9,7 @@ namespace vkpm {
 static constexpr int warmUps = 2; // the first compiles the kernel
 static constexpr int pairs = 11;
 
-static double median(std::vector<double> values) {
+double median(std::vector<double> values) {
     std::ranges::nth_element(values, values.begin() + values.size() / 2);
     return values[values.size() / 2];
 }

@@ -3,6 +3,7 @@
 #include "gpu/gpu.h"
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace vkpm {
 
@@ -25,6 +26,9 @@ struct PairedSeconds {
 
 /// Medians over pairs of runs, each after runs that do not count; the functions return the seconds that they took.
 PairedSeconds measurePairs(const std::function<double()>& vkpm, const std::function<double()>& yardstick);
+
+/// The upper one of an even number of values.
+double median(std::vector<double> values);
 
 /// The seconds of the wall clock that a function takes.
 double wallSeconds(const std::function<void()>& work);

@@ -12,7 +12,7 @@ namespace vkpm {
 namespace {
 
 constexpr std::size_t pairCount = 1u << 20;
-constexpr std::size_t photonCount = 1u << 21;
+constexpr std::size_t copiedPhotons = 1u << 21;
 
 struct KeyValue {
     uint key;
@@ -28,25 +28,25 @@ template <class Work> void onAllThreads(std::size_t count, const Work& work) {
 template <class Host>
 Measurement measureCopy(Gpu& gpu, const std::string& name, const std::string& against, const std::vector<uint>& order,
                         const Host& host) {
-    const std::vector<Photon> photons(photonCount);
-    const Buffer<Photon> from(gpu, "bench photons", photons), to(gpu, "bench photons", photonCount);
+    const std::vector<Photon> photons(copiedPhotons);
+    const Buffer<Photon> from(gpu, "bench photons", photons), to(gpu, "bench photons", copiedPhotons);
     const Buffer<uint> places(gpu, "bench order", order);
     const Kernel<ArrangeArgs> arrange(gpu, "arrange");
-    std::vector<Photon> arranged(photonCount);
+    std::vector<Photon> arranged(copiedPhotons);
     const PairedSeconds times = measurePairs(
         [&] {
         return kernelSeconds(gpu, [&] {
             Recording recording(gpu);
-            recording.run(arrange, photonCount, {from, places, to, photonCount});
+            recording.run(arrange, copiedPhotons, {from, places, to, copiedPhotons});
             recording.submit();
         });
         },
         [&] {
         return wallSeconds([&] {
-            onAllThreads(photonCount, [&](std::size_t begin, std::size_t end) { host(photons, arranged, begin, end); });
+            onAllThreads(copiedPhotons, [&](std::size_t begin, std::size_t end) { host(photons, arranged, begin, end); });
         });
     });
-    return asRate(name, against, "B/s", 2.0 * sizeof(Photon) * photonCount, times);
+    return asRate(name, against, "B/s", 2.0 * sizeof(Photon) * copiedPhotons, times);
 }
 
 } // namespace
@@ -76,7 +76,7 @@ Measurement measureSort(Gpu& gpu) {
 }
 
 std::vector<Measurement> measureCopies(Gpu& gpu) {
-    std::vector<uint> order(photonCount);
+    std::vector<uint> order(copiedPhotons);
     std::iota(order.begin(), order.end(), 0);
     const auto copy = [](const auto& from, auto& to, std::size_t begin, std::size_t end) {
         std::memcpy(&to[begin], &from[begin], (end - begin) * sizeof(Photon));

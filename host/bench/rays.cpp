@@ -8,7 +8,7 @@
 namespace vkpm {
 namespace {
 
-template <class Work> void onAllThreads(std::size_t count, const Work& work) {
+template <class Work> void forEachRay(std::size_t count, const Work& work) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); i++) work(i);
     });
@@ -27,7 +27,7 @@ Measurement measureClosest(Gpu& gpu, const Scene& scene, const UploadedScene& up
     };
     std::vector<Hit> found(rays.size());
     const auto host = [&] {
-        onAllThreads(rays.size(), [&](std::size_t i) { found[i] = embree.closest(rays[i].origin, rays[i].direction); });
+        forEachRay(rays.size(), [&](std::size_t i) { found[i] = embree.closest(rays[i].origin, rays[i].direction); });
     };
     return asRate(name, "rtcIntersect1", "rays/s", double(rays.size()),
                   measurePairs([&] { return kernelSeconds(gpu, kernel); }, [&] { return wallSeconds(host); }));
@@ -46,7 +46,7 @@ Measurement measureShadow(Gpu& gpu, const Scene& scene, const UploadedScene& upl
     };
     std::vector<vec3> direct(rays.size());
     const auto host = [&] {
-        onAllThreads(rays.size(), [&](std::size_t i) {
+        forEachRay(rays.size(), [&](std::size_t i) {
             if (!embree.occluded(rays[i].origin, rays[i].target)) direct[i] += rays[i].radiance;
         });
     };

@@ -1,6 +1,7 @@
 /// Device memory: allocation, and copies to and from the host.
 #include "gpu/buffer.h"
 #include "gpu/buffer_handles.h"
+#include "gpu/process_limits.h"
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
@@ -29,15 +30,17 @@ static std::uint64_t usedBytes(const Gpu& gpu) {
     return total;
 }
 
-[[noreturn]] static void refuse(const Gpu& gpu, const std::string& name, std::uint64_t bytes, const std::string& cause) {
-    throw OutOfMemory(fmt::format("allocating {:.1f} MiB of device memory for '{}', beside {:.1f} MiB in use, failed: {}", double(bytes) / 1048576, name,
-                                  double(usedBytes(gpu)) / 1048576, cause));
+static std::string refusal(const Gpu& gpu, const std::string& name, std::uint64_t bytes, const std::string& cause) {
+    return fmt::format("allocating {:.1f} MiB of device memory for '{}', beside {:.1f} MiB in use, failed: {}", double(bytes) / 1048576, name,
+                       double(usedBytes(gpu)) / 1048576, cause);
 }
 
 static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::MemoryPropertyFlags wanted) {
     const auto& device = gpu.handles->device;
     if (usedBytes(gpu) + bytes > gpu.handles->freeBytes)
-        refuse(gpu, name, bytes, fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576));
+        throw OutOfMemory(refusal(gpu, name, bytes, fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576)));
+    if (gpu.handles->isProcessor)
+        if (const std::string cause = whyNotAllocated(bytes, usedBytes(gpu)); !cause.empty()) throw GpuError(refusal(gpu, name, bytes, cause));
     Allocation result;
     try {
         result.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo{
@@ -51,7 +54,7 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
             .pNext = &flags, .allocationSize = needs.size, .memoryTypeIndex = static_cast<std::uint32_t>(type)});
         result.buffer.bindMemory(*result.memory, 0);
     } catch (const vk::SystemError& error) {
-        refuse(gpu, name, bytes, error.what());
+        throw OutOfMemory(refusal(gpu, name, bytes, error.what()));
     }
     return result;
 }

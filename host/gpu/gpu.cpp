@@ -138,6 +138,7 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
         vk->nanosecondsPerTick = properties.limits.timestampPeriod;
     vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
     vk->freeBytes = freeBytes(vk->physical);
+    vk->isProcessor = vk->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu;
     return vk;
 }

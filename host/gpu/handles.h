@@ -16,6 +16,7 @@ struct Gpu::Handles {
     vk::raii::QueryPool stamps{nullptr};
     std::uint32_t family = 0;
     float nanosecondsPerTick = 0;
+    bool isProcessor = false;      // no GPU: the driver runs on the host
     bool mapsDeviceMemory = false; // the host can write device memory directly
     std::uint64_t freeBytes = 0; // of device memory when the device was opened
     DeviceInfo info;

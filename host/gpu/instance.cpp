@@ -40,9 +40,11 @@ Instance::Instance(std::span<const char* const> extensions) {
     const bool validate = wantsValidation();
     handle = createInstance(context, extensions, validate);
     if (!validate) return;
-    const vk::DebugUtilsMessengerCreateInfoEXT create{
-        .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
-        .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
+    vk::DebugUtilsMessengerCreateInfoEXT create; // filled as C's, since the type of the callback in vk:: depends on the version of the headers
+    create = VkDebugUtilsMessengerCreateInfoEXT{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
         .pfnUserCallback = onMessage};
     messenger = handle.createDebugUtilsMessengerEXT(create);
 }

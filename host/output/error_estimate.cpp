@@ -16,7 +16,7 @@ const uint parts = 8; // of the picture, along each side
 // Quantiles of the normal distribution: one side for the margin of the error, two sides for intervals.
 const double oneSided90 = 1.2816, twoSided90 = 1.6449;
 
-dvec3 beauty(const Pixel& pixel) {
+dvec3 exactBeauty(const Pixel& pixel) {
     dvec3 sum{0};
     for (const vec3& layer : pixel.mean.layers) sum += dvec3(layer);
     return sum;
@@ -80,7 +80,7 @@ double rootOfMean(double sum, double count) { return std::sqrt(std::max(0.0, sum
 
 ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
     std::vector<dvec3> colors;
-    for (const Pixel& pixel : pixels) colors.push_back(beauty(pixel));
+    for (const Pixel& pixel : pixels) colors.push_back(exactBeauty(pixel));
     std::array<Squares, parts * parts> blocks{};
     Squares all;
     for (std::size_t i = 0; i < pixels.size(); i++) {
@@ -113,7 +113,7 @@ ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
 vec3 halfInterval(const Pixel& pixel, uint freedom) {
     const double t = studentQuantile(freedom);
     const dvec3 noise(pixel.noise);
-    const dvec3 color = beauty(pixel);
+    const dvec3 color = exactBeauty(pixel);
     const dvec3 share = luminance(color) > 0 ? color / luminance(color) : dvec3(1); // channels are off in proportion
     return vec3(glm::sqrt(noise * noise + share * share * std::max(squaredBias(pixel), 0.0)) * t);
 }

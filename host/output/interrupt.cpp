@@ -1,30 +1,37 @@
-/// Ctrl-C as a wish that the render loop looks at between passes.
+/// Signals to a flag.
 #include "output/interrupt.h"
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <string_view>
+#include <cstring>
 #include <unistd.h>
 
 namespace vkpm {
 namespace {
 
+const int interruptedCode = 130;
+
 std::atomic<bool> flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<bool> endsAtOnce{true};
+std::atomic<const char*> message{"interrupted"};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
 bool terminal = false; // set before the handler is installed
+
+void put(const char* text) { [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 /// Calls nothing but what POSIX allows in a signal handler.
 void onSignal(int) {
     const int saved = errno;
+    put(terminal ? "\nvkpm: " : "vkpm: "); // on a terminal the cursor may stand behind a progress bar: begin a new line
+    put(message);
+    put("\n");
+    if (endsAtOnce) ::_exit(interruptedCode);
     flag = true;
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
-
-    // On a terminal the cursor may stand behind a progress bar: begin a new line.
-    std::string_view text = "\nvkpm: interrupted: finishing this pass, then saving; once more stops at once\n";
-    if (!terminal) text.remove_prefix(1);
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    std::signal(SIGXCPU, SIG_IGN); // it comes each second
+    std::signal(SIGHUP, SIG_IGN); // a terminal that is closed sends it, and its shell once more
     errno = saved;
 }
 
@@ -37,7 +44,17 @@ void catchInterrupts() {
     action.sa_flags = SA_RESTART;
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
+    ::sigaction(SIGXCPU, &action, nullptr);
+    struct sigaction before {};
+    ::sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void onInterrupt(const char* text, bool ends) {
+    message = text;
+    endsAtOnce = ends;
 }
 
 bool interrupted() { return flag; }

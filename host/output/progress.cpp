@@ -1,6 +1,7 @@
 /// How far a render is: one line redrawn on a terminal, a line now and then elsewhere.
 #include "output/progress.h"
 #include "output/interrupt.h"
+#include "output/messages.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -67,11 +68,10 @@ Progress::~Progress() {
     if (terminal) {
         drawn = interrupted() ? 0 : drawn;
         draw(lastSeconds);
-        std::fputc('\n', file);
+        writeText(file, "\n");
     } else if (shown != finished) {
         log(lastSeconds);
     }
-    std::fflush(file);
 }
 
 void Progress::update(uint done, std::uint64_t count) {
@@ -106,15 +106,13 @@ bool Progress::due(double seconds) const {
 void Progress::draw(double seconds) {
     const size_t columns = terminalColumns(file);
     const std::string line = progressLine(finished, goal, seconds, rays, columns, true, lastError);
-    fmt::print(file, "\r{:<{}}", line, std::min(drawn, columns));
-    std::fflush(file);
+    writeText(file, fmt::format("\r{:<{}}", line, std::min(drawn, columns)));
     drawn = line.size();
     shown = finished;
 }
 
 void Progress::log(double seconds) {
-    fmt::print(file, "{}\n", progressLine(finished, goal, seconds, rays, 200, false, lastError));
-    std::fflush(file);
+    writeText(file, progressLine(finished, goal, seconds, rays, 200, false, lastError) + "\n");
     shown = finished;
 }
 

@@ -39,19 +39,23 @@ std::string tableOf(const std::vector<ReportRow>& rows) {
 
 } // namespace
 
-Report::Report(std::filesystem::path where, const std::optional<std::filesystem::path>& referenceFile, uvec2 pixels) : folder(std::move(where)), size(pixels) {
+Report::Report(std::filesystem::path where, const std::optional<std::filesystem::path>& against, uvec2 size) : folder(std::move(where)), referenceFile(against) {
     if (referenceFile) {
         reference = readExr(*referenceFile);
-        if (reference->size != size)
-            throw InputError(fmt::format("{}: --reference: has {}x{} pixels; allowed: the {}x{} of the render, or another --size", referenceFile->string(),
-                                         reference->size.x, reference->size.y, size.x, size.y));
+        requireSize(size);
         if (std::ranges::none_of(imageLayers(*reference), isLight))
             throw InputError(fmt::format("{}: --reference: has no channels R, G and B", referenceFile->string()));
     }
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw std::runtime_error(fmt::format("{}: --report: the folder cannot be made: {}", folder.string(), error.message()));
-    for (const char* file : {"error.csv", "index.html"}) requireWritable(folder / file);
+    for (const char* file : files) requireWritable(folder / file);
+}
+
+void Report::requireSize(uvec2 size) const {
+    if (reference && reference->size != size)
+        throw InputError(fmt::format("{}: --reference: has {}x{} pixels; allowed: the {}x{} of the render, or another --size", referenceFile->string(), reference->size.x,
+                                     reference->size.y, size.x, size.y));
 }
 
 bool Report::due(uint passes) {

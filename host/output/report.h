@@ -3,6 +3,7 @@
 #include "output/error_estimate.h"
 #include "output/image.h"
 #include "output/layer_error.h"
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,10 +23,14 @@ struct ReportRow {
 /// A folder with error.csv, written anew with each row, and index.html.
 class Report {
 public:
+    static constexpr std::array<const char*, 2> files{"error.csv", "index.html"};
+
     /// Makes the folder if there is none. A reference is an EXR file of the same size; without one, rows have estimates alone.
     /// Throws InputError or std::runtime_error with file and cause.
     Report(std::filesystem::path folder, const std::optional<std::filesystem::path>& reference, uvec2 size);
 
+    /// Throws InputError if the reference has another size.
+    void requireSize(uvec2 size) const;
     /// Whether a row is due: passes grow by the square root of two.
     static bool due(uint passes);
     /// Adds a row; `image` is measured against the reference.
@@ -37,8 +42,8 @@ public:
 
 private:
     std::filesystem::path folder;
+    std::optional<std::filesystem::path> referenceFile;
     std::optional<Image> reference;
-    uvec2 size;
     std::vector<ReportRow> all;
 };
 

@@ -59,6 +59,7 @@ std::string statisticsJson(const Statistics& statistics) {
     object["error"] = nullptr;
     if (const auto& e = statistics.error) object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"sure", 0.9}};
     object["nonfinite"] = statistics.nonfinite;
+    object["warnings"] = statistics.warnings;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +50,7 @@ struct Statistics {
     std::vector<std::string> leftOut{}; // what it does without, and why
     std::optional<ErrorEstimate> error{};
     std::uint64_t nonfinite = 0;      // samples that count as black
+    std::vector<std::string> warnings{};
 };
 
 /// The radii as a JSON object; null if absent.

@@ -9,8 +9,6 @@ namespace vkpm {
 // and go everywhere, what lies about.
 const float pixelReach = 2, rayReach = 8;
 
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
-
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, wave)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),

@@ -15,13 +15,13 @@ const std::array<uint, START_NUMBERS> order{START_DIRECTION, START_DIRECTION + 1
 float costOf(const Start& start) { return 1 + 2 * float(start.stored); }
 
 /// What is asked of a photon again and again, with the density of uniform ones.
-struct Sample {
+struct PilotSample {
     std::array<float, START_NUMBERS> numbers;
     float all;    // their density over that with which it was started
     float cost;
     double useful; // square of what it adds, which may be a far light's 10^-40
 
-    explicit Sample(const Start& start)
+    explicit PilotSample(const Start& start)
         : all(start.sparse), cost(all * costOf(start)), useful(double(all) * start.weight * start.weight * start.seen) {
         std::ranges::copy(start.numbers, numbers.begin());
     }
@@ -35,7 +35,7 @@ struct Sums {
     double useful = 0;
     double useful2 = 0; // squares
 
-    void add(const Sample& sample) {
+    void add(const PilotSample& sample) {
         photons += 1;
         all += sample.all;
         cost += sample.cost;
@@ -74,9 +74,9 @@ struct Share {
 
 class Builder {
 public:
-    Builder(std::vector<Sample>& given, const std::array<bool, START_NUMBERS>& which) : axes(which) {
+    Builder(std::vector<PilotSample>& given, const std::array<bool, START_NUMBERS>& which) : axes(which) {
         Sums sums;
-        for (const Sample& sample : given) sums.add(sample);
+        for (const PilotSample& sample : given) sums.add(sample);
         mean = sums.all > 0 ? sums.useful / sums.all : 0;
         tree.nodes.push_back({NONE, 0, 0});
         if (mean == 0) return;
@@ -105,7 +105,7 @@ private:
     }
 
     /// The axis to cut: that which saves most effort or, if chance alone would save as much, the widest.
-    uint axisFor(std::span<const Sample> samples, const Box& box, const Sums& whole) const {
+    uint axisFor(std::span<const PilotSample> samples, const Box& box, const Sums& whole) const {
         uint best = NONE, widest = NONE;
         double least = 2 * effort(whole) * (1 - 1 / std::max(whole.effective(), 1.0));
         for (const uint axis : order) {
@@ -113,7 +113,7 @@ private:
             if (widest == NONE || box.width[axis] > box.width[widest]) widest = axis;
             std::array<Sums, 2> halves;
             const float middle = box.middle(axis);
-            for (const Sample& sample : samples) halves[sample.numbers[axis] >= middle].add(sample);
+            for (const PilotSample& sample : samples) halves[sample.numbers[axis] >= middle].add(sample);
             const double both = effort(halves[0]) + effort(halves[1]);
             if (both < least) least = both, best = axis;
         }
@@ -121,14 +121,14 @@ private:
     }
 
     /// Fills a node and those below.
-    Share build(std::span<Sample> samples, const Box& box, uint node) {
+    Share build(std::span<PilotSample> samples, const Box& box, uint node) {
         Sums sums;
-        for (const Sample& sample : samples) sums.add(sample);
+        for (const PilotSample& sample : samples) sums.add(sample);
         const Share uncut = shareOf(sums, box.volume);
         const uint axis = samples.size() < fewSamples || sums.useful == 0 ? NONE : axisFor(samples, box, sums);
         if (axis == NONE) return uncut;
 
-        const auto upper = std::partition(samples.begin(), samples.end(), [&](const Sample& sample) { return sample.numbers[axis] < box.middle(axis); });
+        const auto upper = std::partition(samples.begin(), samples.end(), [&](const PilotSample& sample) { return sample.numbers[axis] < box.middle(axis); });
         const uint child = static_cast<uint>(tree.nodes.size());
         tree.nodes.resize(child + 2, {NONE, 0, 0});
         const Share lower = build({samples.begin(), upper}, box.half(axis, false), child);
@@ -148,7 +148,7 @@ private:
 } // namespace
 
 GuideTree guideTree(std::span<const Start> starts, const std::array<bool, START_NUMBERS>& axes) {
-    std::vector<Sample> samples(starts.begin(), starts.end());
+    std::vector<PilotSample> samples(starts.begin(), starts.end());
     return Builder(samples, axes).tree;
 }
 

@@ -4,8 +4,6 @@
 
 namespace vkpm {
 
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
-
 PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     emitted += other.emitted;
     stored += other.stored;

@@ -1,10 +1,10 @@
 /// Building of hierarchies: boxes to Embree's builder, its tree to arrays of nodes and leaves.
 #include "scene/bvh.h"
 #include "scene/box.h"
+#include "scene/embree.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <memory>
 #include <new>

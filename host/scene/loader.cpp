@@ -150,6 +150,7 @@ Scene loadScene(const std::filesystem::path& file) {
     if (!problem.empty()) throw InputError(fmt::format("{}: {}; give a scene file", printable(file.string(), 4096), problem));
     Scene scene;
     scene.name = file.stem().string();
+    scene.files.push_back(file);
     scene.text = readText(file, mostSceneBytes, "give a scene file; its meshes belong into OBJ files");
     if (scene.text.find_first_not_of(" \t\r\n") == std::string::npos)
         refuseFile(file, ":1:1", "the file is empty", "give a scene, {\"camera\": ..., \"shapes\": ...}");

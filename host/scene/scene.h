@@ -28,6 +28,7 @@ struct Scene {
     glm::dvec3 origin{0}; // in world units, of all coordinates here and on the device
     std::string name; // the file's name without folder and extension
     std::string text; // the scene file as read
+    std::vector<std::filesystem::path> files; // that were read: the scene file first, then meshes
     std::vector<Node> nodes;
     std::vector<Leaf> leaves;
     std::vector<Primitive> primitives; // triangles, then spheres

@@ -168,6 +168,7 @@ const Mesh& ShapeLoader::meshOf(Reader& shape) {
     if (known != meshes.end()) return known->second;
     if (const std::string problem = fileProblem(file, true); !problem.empty())
         fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
+    if (std::ranges::find(scene.files, file) == scene.files.end()) scene.files.push_back(file);
     return meshes.emplace(std::pair{file, smoothness}, loadMesh(file, smoothness)).first->second;
 }
 

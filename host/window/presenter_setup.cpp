@@ -109,6 +109,9 @@ void Presenter::Handles::startImGui() {
     ImGui_ImplVulkan_Init(&info, *renderPass);
     imGuiRuns = true;
 
+#if IMGUI_VERSION_NUM >= 19000
+    ImGui_ImplVulkan_CreateFontsTexture();
+#else // it only records
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     ImGui_ImplVulkan_CreateFontsTexture(*commands);
     commands.end();
@@ -116,6 +119,7 @@ void Presenter::Handles::startImGui() {
     queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &recorded});
     queue.waitIdle();
     ImGui_ImplVulkan_DestroyFontUploadObjects();
+#endif
 }
 
 bool Presenter::Handles::buildSwapchain() {

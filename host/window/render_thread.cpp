@@ -3,6 +3,7 @@
 #include "gpu/audit.h"
 #include "output/atomic_file.h"
 #include "output/interrupt.h"
+#include "output/messages.h"
 #include "scene/settings_json.h"
 #include "window/camera_json.h"
 #include <fmt/format.h>
@@ -69,7 +70,7 @@ void RenderThread::run() {
     giveWay();
     try {
         while (step()) continue;
-        if (job && !broken && !discards()) savedAtEnd = job->finish();
+        if (session && session->job && !broken && !discards()) savedAtEnd = session->job->finish();
     } catch (...) {
         failure = std::current_exception();
     }
@@ -89,7 +90,7 @@ Wishes RenderThread::take() {
     std::unique_lock lock(mutex);
     const auto before = Clock::now();
     changed.wait(lock, [&] { return hasWork || version != handled; });
-    if (job) job->leaveOut(secondsSince(before));
+    if (session && session->job) session->job->leaveOut(secondsSince(before));
     if (version != handled) halted = false;
     handled = version;
     return wanted;
@@ -103,16 +104,17 @@ bool RenderThread::step() {
         if (!load(wish)) return true;
         if (halted) return hasWork = false, true;
         if (!gpu) openDevice();
-        if (!draft) return drawDraft(wish), true; // something to look at before the first pass
+        if (!session->draft) return drawDraft(wish), true; // something to look at before the first pass
         if (!follow(wish)) return true;
-        if (saved != wish.saves && job->passCount() > 0) save(wish.saves);
-        if (!job->done() && (!wish.paused || job->passCount() == 0)) advance();
+        RenderJob& job = *session->job;
+        if (saved != wish.saves && job.passCount() > 0) save(wish.saves);
+        if (!job.done() && (!wish.paused || job.passCount() == 0)) advance();
         tell(wish);
     } catch (const Cancelled&) {
         broken = true;
         hasWork = true;
         endLastPass();
-    } catch (const GpuError& error) {
+    } catch (const std::exception& error) { // of the device, or of a scene or settings that load but cannot be rendered
         if (!latest) throw;
         recover(error);
     }
@@ -121,8 +123,8 @@ bool RenderThread::step() {
 
 /// Shows what there is, not after each pass if passes are quick.
 void RenderThread::tell(const Wishes& wish) {
-    const uint passes = job->passCount();
-    const bool last = passes > 0 && (wish.paused || job->done());
+    const uint passes = session->job->passCount();
+    const bool last = passes > 0 && (wish.paused || session->job->done());
     const bool due = published != passes || withPhotons != wish.photons;
     withPhotons = wish.photons;
     if (passes > 0 && due && (last || passes == 1 || secondsSince(publication) > std::max(0.25, 4 * publishing))) publish();
@@ -130,40 +132,59 @@ void RenderThread::tell(const Wishes& wish) {
     hasWork = !last;
 }
 
-/// Has a scene, if need be the newest that its file has; false if it is broken, and was told so.
+/// Has a scene, if need be the newest that its file has; false if it is broken or cannot be rendered, and was told so, or was taken up
+/// just now.
 bool RenderThread::load(const Wishes& wish) {
-    if (scene && reloaded == wish.reloads) return true;
-    const bool first = !scene;
-    reloaded = wish.reloads;
+    if (session && reloaded == wish.reloads) return true;
+    const bool first = !session;
     try {
-        Scene next = loadScene(wish.options.scene);
-        for (const std::string& warning : next.warnings) fmt::print(stderr, "vkpm: warning: {}\n", warning);
-        options = wish.options;
-        settings = options.override(next.settings);
-        loadedText = next.text;
-        loadedView = next.view;
-        scene = std::move(next);
-        own.problem.clear();
-    } catch (const InputError& error) {
+        auto next = std::make_unique<Session>(Session{wish.options, loadScene(wish.options.scene)});
+        requireFilesApart(next->options, next->scene.files);
+        for (const std::string& warning : next->scene.warnings) warn(warning);
+        if (first) {
+            requireWritable(next->options.output);
+            requireWritable(pngBeside(next->options.output));
+            log.open();
+        } else {
+            if (gpu) construct(*next);
+            log.write("reload", {{"scene", next->options.scene.string()}});
+        }
+        adopt(std::move(next));
+        reloaded = wish.reloads;
+        return first;
+    } catch (const Cancelled&) { // by a newer wish; then it is tried again
+        endLastPass();
+        hasWork = true;
+        return false;
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const std::exception& error) {
         if (first) throw;
+        reloaded = wish.reloads;
+        endLastPass();
         saySo(error.what());
         log.write("broken scene", {{"cause", error.what()}});
         return false;
     }
-    if (first) requireWritable(options.output), requireWritable(pngBeside(options.output));
-    else log.write("reload", {{"scene", options.scene.string()}});
-    job.reset();
-    draft.reset();
-    own.settings = settings;
-    own.sceneView = loadedView;
-    report("preparing");
+}
+
+/// Goes on with another session.
+void RenderThread::adopt(std::unique_ptr<Session> next) {
+    session = std::move(next);
+    own.problem.clear();
+    own.settings = session->settings;
+    own.sceneView = session->loadedView;
+    hasWork = true;
+    halted = false;
+    if (session->job) begin();
+    else report("preparing");
     const std::lock_guard lock(mutex);
     sizeKnown = true;
     changed.notify_all();
-    return true;
 }
 
 void RenderThread::openDevice() {
+    const Options& options = session->options;
     gpu.emplace(options.device);
     gpu->cancel = &cancel;
     gpu->timesKernels = options.stats.has_value();
@@ -171,19 +192,26 @@ void RenderThread::openDevice() {
     own.device = gpu->info().name;
 }
 
-void RenderThread::construct() {
+/// Makes the job of a session, which may be one that is not ours yet.
+void RenderThread::construct(Session& wanted) {
     interruptible(true);
-    job.emplace(options, *scene, settings, *gpu, log, start);
+    wanted.job.emplace(wanted.options, wanted.scene, wanted.settings, *gpu, log, start);
     endLastPass();
-    if (options.resume && !latest) job->resume();
-    own.leftOut = job->statistics().leftOut;
+}
+
+/// With a new job.
+void RenderThread::begin() {
+    RenderJob& job = *session->job;
+    if (session->options.resume && !resumed) job.resume();
+    resumed = true;
+    own.leftOut = job.statistics().leftOut;
     if (std::exchange(failed, false)) own.problem.clear();
-    job->begin();
+    job.begin();
     beginAnew();
 }
 
 void RenderThread::beginAnew() {
-    own.settings = settings;
+    own.settings = session->settings;
     own.errors.clear();
     broken = false;
     published = 0;
@@ -193,57 +221,90 @@ void RenderThread::beginAnew() {
 
 /// Has a job for the wishes; false if there was something else to do.
 bool RenderThread::follow(const Wishes& wish) {
-    const Settings next = wish.options.override(scene->settings);
+    Settings& settings = session->settings;
+    const Settings next = wish.options.override(session->scene.settings);
     const bool sameButSize = [&] {
         Settings resized = next;
         resized.size = settings.size;
         return settingsJson(resized) == settingsJson(settings);
     }();
-    const bool resized = next.size != settings.size;
-    const bool looks = wish.view != view;
     if (!sameButSize) return startOver(wish), false;
+    if (std::exchange(refused, false)) own.problem.clear();
     if (wish.moving) return drawDraft(wish), false;
 
-    options = wish.options;
-    settings = next;
-    if (looks || !job) takeView(wish);
-    if (!job) construct();
-    else if (looks || resized || broken) {
-        job->restart();
+    const bool resized = next.size != settings.size && fits(next.size);
+    const bool looks = wish.view != view;
+    session->options = wish.options;
+    if (resized) settings.size = next.size;
+    if (looks || !session->job) takeView(wish, *session);
+    if (!session->job) {
+        construct(*session);
+        begin();
+    } else if (looks || resized || broken) {
+        session->job->restart();
         beginAnew();
     }
     return true;
 }
 
-/// Other settings: all is made anew.
+/// Whether the film may have a size; says why not.
+bool RenderThread::fits(uvec2 size) {
+    if (!session->job || refusedSize == size) return refusedSize != size;
+    try {
+        session->job->requireSize(size);
+    } catch (const InputError& error) {
+        refusedSize = size;
+        saySo(error.what());
+        return false;
+    }
+    if (std::exchange(refusedSize, std::nullopt)) own.problem.clear();
+    return true;
+}
+
+/// Other settings: all is made anew. If they cannot be rendered, what there is stays and waits for others.
 void RenderThread::startOver(const Wishes& wish) {
-    job.reset();
-    draft.reset();
-    options = wish.options;
-    settings = options.override(scene->settings);
-    hasWork = true;
+    Scene scene = session->scene;
+    scene.text = session->loadedText;
+    scene.view = session->loadedView;
+    auto next = std::make_unique<Session>(Session{wish.options, std::move(scene)});
+    const std::optional<View> before = view;
+    takeView(wish, *next);
+    try {
+        construct(*next);
+        return adopt(std::move(next));
+    } catch (const Cancelled&) { // by a newer wish
+        hasWork = true;
+    } catch (const InputError& error) {
+        halted = refused = true;
+        hasWork = false;
+        saySo(error.what());
+    }
+    view = before;
+    endLastPass();
 }
 
 /// The scene's text takes the camera, so that a file says what it is a picture of.
-void RenderThread::takeView(const Wishes& wish) {
+void RenderThread::takeView(const Wishes& wish, Session& taken) {
+    Scene& scene = taken.scene;
     view = wish.view;
-    scene->view = view ? inWorldDigits(*view) : loadedView;
-    scene->text = scene->view == loadedView ? loadedText : withCamera(loadedText, scene->view);
+    scene.view = view ? inWorldDigits(*view) : taken.loadedView;
+    scene.text = scene.view == taken.loadedView ? taken.loadedText : withCamera(taken.loadedText, scene.view);
 }
 
 void RenderThread::drawDraft(const Wishes& wish) {
-    const View seen = wish.view.value_or(loadedView);
+    std::optional<Draft>& draft = session->draft;
+    const View seen = wish.view.value_or(session->loadedView);
     hasWork = !wish.moving;
     if (draft && latest && latest->draft && latest->view == seen) return;
     const auto before = Clock::now();
-    if (!draft) draft.emplace(*gpu, *scene, settings);
-    const auto shown = std::make_shared<Picture>(draft->render(seen, settings.size));
+    if (!draft) draft.emplace(*gpu, session->scene, session->settings);
+    const auto shown = std::make_shared<Picture>(draft->render(seen, session->settings.size));
     {
         const std::lock_guard lock(mutex);
         latest = shown;
     }
     published = 0;
-    if (job) job->leaveOut(secondsSince(before));
+    if (session->job) session->job->leaveOut(secondsSince(before));
     report(wish.moving ? "moving" : "preparing");
 }
 
@@ -262,7 +323,8 @@ void RenderThread::endLastPass() {
 
 void RenderThread::advance() {
     if (!interruptible(true)) return;
-    job->renderPass();
+    onInterrupt("interrupted: closing the window; finished passes are saved; once more stops at once", false);
+    session->job->renderPass();
     endLastPass();
 }
 

@@ -23,6 +23,18 @@ struct Wishes {
     bool discard = false;       // without saving
 };
 
+/// A scene with settings, and what renders it. The next one is made before this one is let go, so that what cannot be rendered costs
+/// no passes.
+struct Session {
+    Options options;
+    Scene scene; // with the view that is rendered
+    Settings settings = options.override(scene.settings);
+    std::string loadedText = scene.text; // as the file has them
+    View loadedView = scene.view;
+    std::optional<RenderJob> job{};
+    std::optional<Draft> draft{};
+};
+
 class RenderThread {
 public:
     /// Begins with loading the scene. `wake` is called whenever there is something new, from the thread.
@@ -50,13 +62,16 @@ private:
     bool discards() const;
     Wishes take();
     bool load(const Wishes& wish);
+    void adopt(std::unique_ptr<Session> next);
     void openDevice();
-    void construct();
+    void construct(Session& wanted);
+    void begin();
     void beginAnew();
     void tell(const Wishes& wish);
     bool follow(const Wishes& wish);
     void startOver(const Wishes& wish);
-    void takeView(const Wishes& wish);
+    bool fits(uvec2 size);
+    void takeView(const Wishes& wish, Session& taken);
     void drawDraft(const Wishes& wish);
     void advance();
     bool interruptible(bool allowed);
@@ -67,7 +82,7 @@ private:
     void save(uint saves);
     void report(const char* activity);
     void saySo(std::string problem);
-    void recover(const GpuError& error);
+    void recover(const std::exception& error);
 
     // Shared, under the mutex.
     mutable std::mutex mutex;
@@ -86,17 +101,14 @@ private:
     EventLog& log;
     Clock::time_point start = Clock::now();
     std::uint64_t handled = 0; // version of the wishes
-    Options options;
-    std::optional<Scene> scene; // with the view that is rendered
-    std::string loadedText;
-    View loadedView;
     std::optional<View> view; // wished, absent: the scene's
     uint reloaded = 0;
     uint saved = 0;
-    Settings settings;
     std::optional<Gpu> gpu;
-    std::optional<RenderJob> job;
-    std::optional<Draft> draft;
+    std::unique_ptr<Session> session;
+    std::optional<uvec2> refusedSize; // of a film
+    bool refused = false;             // settings
+    bool resumed = false;   // what the output held was taken up
     bool broken = false;    // the job's film is of no use
     bool failed = false;    // the problem is the device's
     bool halted = false;    // nothing to render until a wish changes

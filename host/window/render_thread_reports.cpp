@@ -17,8 +17,9 @@ void addPoints(const std::optional<MapStages>& map, std::vector<PhotonPoint>& po
 } // namespace
 
 void RenderThread::publish() {
+    const RenderJob& job = *session->job;
     const auto before = Clock::now();
-    const auto shown = std::make_shared<Picture>(Picture{.pixels = job->renderer.film.download(), .size = settings.size, .view = scene->view, .passes = job->passCount()});
+    const auto shown = std::make_shared<Picture>(Picture{.pixels = job.renderer.film.download(), .size = session->settings.size, .view = session->scene.view, .passes = job.passCount()});
     if (shown->passes >= nextEstimate) estimate(*shown);
     if (withPhotons) showPhotons(*shown);
     published = shown->passes;
@@ -28,28 +29,31 @@ void RenderThread::publish() {
     }
     publication = Clock::now();
     publishing = secondsSince(before);
-    job->leaveOut(publishing);
+    session->job->leaveOut(publishing);
 }
 
 /// At numbers of passes that grow by a quarter at least.
 void RenderThread::estimate(const Picture& shown) {
-    if (const auto error = job->estimateOf(shown.pixels)) own.errors.push_back({job->seconds(), shown.passes, *error});
+    const RenderJob& job = *session->job;
+    if (const auto error = job.estimateOf(shown.pixels)) own.errors.push_back({job.seconds(), shown.passes, *error});
     nextEstimate = shown.passes + (shown.passes + 3) / 4;
 }
 
 /// The first photons of a map are as good as any: their points are of a low-discrepancy sequence.
 void RenderThread::showPhotons(Picture& shown) const {
-    addPoints(job->renderer.globalMap(), shown.photons);
-    addPoints(job->renderer.causticMap(), shown.photons);
+    addPoints(session->job->renderer.globalMap(), shown.photons);
+    addPoints(session->job->renderer.causticMap(), shown.photons);
 }
 
 void RenderThread::save(uint saves) {
+    RenderJob& job = *session->job;
+    const std::string file = session->options.output.string();
     saved = saves;
     try {
-        job->save(job->renderer.film.download());
-        own.saved = fmt::format("{}, {} passes", options.output.string(), job->passCount());
+        job.save(job.renderer.film.download());
+        own.saved = fmt::format("{}, {} passes", file, job.passCount());
         own.saves++;
-        log.write("save", {{"file", options.output.string()}, {"passes", job->passCount()}});
+        log.write("save", {{"file", file}, {"passes", job.passCount()}});
     } catch (const std::runtime_error& cause) {
         own.saved = cause.what();
     }
@@ -57,7 +61,8 @@ void RenderThread::save(uint saves) {
 
 void RenderThread::report(const char* activity) {
     own.activity = activity;
-    if (job && !broken) {
+    if (session && session->job && !broken) {
+        const RenderJob* job = &*session->job;
         own.passes = job->passCount();
         own.passesWanted = job->passesWanted().end == NONE ? NONE : length(job->passesWanted());
         own.seconds = job->seconds();
@@ -65,7 +70,7 @@ void RenderThread::report(const char* activity) {
         own.photons = job->photons();
         own.globalRadii = job->globalRadii();
         own.causticRadii = job->causticRadii();
-        own.radiusFactor = own.passes ? radiusFactor(job->renderer.film.passes().end - 1, settings.alpha) : 1;
+        own.radiusFactor = own.passes ? radiusFactor(job->renderer.film.passes().end - 1, session->settings.alpha) : 1;
     }
     {
         const std::lock_guard lock(mutex);
@@ -79,16 +84,16 @@ void RenderThread::saySo(std::string problem) {
     report(own.activity.c_str());
 }
 
-/// After a failure of the device the picture stays. A lost device is opened anew, and rendering begins again; what else failed
-/// waits for other wishes.
-void RenderThread::recover(const GpuError& error) {
+/// After a failure the picture stays. A lost device is opened anew, and rendering begins again; what else failed waits for other
+/// wishes.
+void RenderThread::recover(const std::exception& error) {
     endLastPass();
     log.write("failed", {{"cause", error.what()}});
-    job.reset();
-    draft.reset();
+    session->job.reset();
+    session->draft.reset();
     const bool lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
     if (lost) gpu.reset();
-    if (lost && ++losses > 3) throw error;
+    if (lost && ++losses > 3) throw DeviceLost(error.what());
     failed = true;
     halted = !lost;
     hasWork = lost;

@@ -3,7 +3,10 @@
 #include "gpu/instance.h"
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <atomic>
 #include <backends/imgui_impl_glfw.h>
+#include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -22,12 +25,32 @@ const int mostLosses = 3;
                                lastProblem.empty() ? "no cause given" : lastProblem));
 }
 
+std::function<void()> saveAtLoss;
+std::atomic<bool> displayIsGone{false};
+
+/// Xlib ends the program when this returns.
+int onLoss(void*) {
+    displayIsGone = true;
+    if (const auto save = std::exchange(saveAtLoss, nullptr)) save();
+    std::_Exit(1);
+}
+
+/// GLFW has loaded Xlib if it shows windows by it; on Wayland a display that goes closes its windows.
+void listenForLoss() {
+    using Handler = int (*)(void*);
+    void* xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    if (void* set = xlib ? dlsym(xlib, "XSetIOErrorHandler") : nullptr) reinterpret_cast<Handler (*)(Handler)>(set)(onLoss);
+}
+
 } // namespace
 
 Window::Window() {
     glfwSetErrorCallback([](int, const char* text) { lastProblem = text; });
     if (!glfwInit()) fail("glfwInit");
+    listenForLoss();
 }
+
+void Window::onDisplayLoss(std::function<void()> save) { saveAtLoss = std::move(save); }
 
 Window::~Window() {
     if (ImGui::GetCurrentContext()) {
@@ -126,7 +149,9 @@ void Window::wait(double seconds) {
     if (density != before) openPresenter();
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+    if (!displayIsGone) glfwPostEmptyEvent();
+}
 
 bool Window::closed() const { return glfwWindowShouldClose(window); }
 void Window::close() { glfwSetWindowShouldClose(window, GLFW_TRUE); }

@@ -29,6 +29,8 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
+    /// What is to be done when the display goes and takes the program with it (exit code 1): to save. It is called once, and may not draw.
+    static void onDisplayLoss(std::function<void()> save);
     /// Appears, with room for so many of its pixels at a usual resolution. Throws GpuError.
     void open(const std::string& title, uvec2 size);
     void hide();
