@@ -2,6 +2,7 @@
 #include "scene/bounding_sphere.h"
 #include "scene/scene.h"
 #include "scene_text.h"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -12,6 +13,7 @@ namespace {
 
 using glm::dvec3;
 using nlohmann::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::FloatNear;
 using testing::HasSubstr;
@@ -184,6 +186,87 @@ TEST(Scene, MeshNormalsAreThoseOfTheFileComputedOrNone) {
         expectNear(computed.normals[p.normals].a, glm::normalize(p.a));
         expectNear(computed.normals[p.normals].c, glm::normalize(p.c));
     }
+}
+
+/// The scene of a mesh of this text.
+Scene loadMeshText(const std::string& text, bool smooth = true) {
+    json shape = mesh("cube.obj");
+    shape["file"] = writeScene(text, "mesh.obj").string();
+    if (!smooth) shape["smooth"] = false;
+    return loadJson(withShape(shape));
+}
+std::string refusalOfMesh(const std::string& text) {
+    try {
+        (void)loadMeshText(text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// As exporters write them.
+TEST(Scene, MeshesOfOtherProgramsAreRead) {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    for (const std::string& lines : {corners + "f 1 2 \\\n 3 4\n", corners + "f 1 \\\r\n2 \\\r\n3 4", corners + "f 1//0 2//0 3//0 4//0", corners + "f 1/0/0 2/0/0 3/0/0 4/0/0",
+                                     corners + "f 1 2 3 4 \\", std::string("v 0 0 \\\n0\n") + corners.substr(8) + "f 1 2 3 4"}) {
+        const Scene scene = loadMeshText(lines);
+        EXPECT_EQ(scene.triangleCount, 4u) << lines; // two, and the light's
+        EXPECT_TRUE(scene.normals.empty() && scene.warnings.empty()) << lines;
+    }
+    EXPECT_THAT(refusalOfMesh(corners + "f 1 \\\n2 9\n"), HasSubstr("mesh.obj:5: a face refers to vertex 9")); // the line where it begins
+    EXPECT_THAT(refusalOfMesh(corners + "f 1 \\\n2 3\nf 1 2 9\n"), HasSubstr("mesh.obj:7: a face refers to vertex 9"));
+    EXPECT_THAT(refusalOfMesh(corners + "f 0 1 2\n"), HasSubstr("mesh.obj:5: found \"0\""));
+
+    const Scene odd = loadMeshText(corners + "f 1 2\nf 1 2 3 4\nf 3\n");
+    EXPECT_EQ(odd.triangleCount, 4u);
+    EXPECT_THAT(odd.warnings, ElementsAre(AllOf(HasSubstr("/shapes/0/file"), HasSubstr("2 faces have fewer than 3 corners"))));
+
+    const Scene many = loadMeshText(corners + "usemtl glass\nf 1 2 3\nusemtl white paint \nf 1 3 4\nusemtl glass\nf 1 2 4\nusemtl unused\n");
+    EXPECT_THAT(many.warnings, ElementsAre(AllOf(HasSubstr("use 2 materials"), HasSubstr("\"glass\""), HasSubstr("\"white paint\""))));
+    EXPECT_TRUE(loadMeshText(corners + "usemtl glass\nf 1 2 3\nusemtl glass\nf 1 3 4\n").warnings.empty());
+}
+
+TEST(Scene, MeshNumbersThatNobodyUsesMayBeAnything) {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv nan nan -nan(ind)\nv 1 1 0\nv 0 1e39 inf\nvn 0 0 1\nvn nan nan nan\n";
+    EXPECT_EQ(loadMeshText(corners + "f 1 2 4\n").triangleCount, 3u);
+    EXPECT_EQ(loadMeshText(corners + "f 1//1 2//1 4//1\n").normals.size(), 1u);
+    EXPECT_EQ(loadMeshText(corners + "f 1//2 2//2 4//2\n", false).triangleCount, 3u);
+    EXPECT_THAT(refusalOfMesh(corners + "f 1//2 2//2 4//2\n"), HasSubstr("mesh.obj:7: a normal that a face uses is not finite"));
+    EXPECT_THAT(refusalOfMesh(corners + "f 1 2 3\n"), HasSubstr("mesh.obj:3: found \"nan nan -nan(ind)\""));
+    EXPECT_THAT(refusalOfMesh(corners + "f 1 2 5\n"), HasSubstr("mesh.obj:5: found \"0 1e39 inf\""));
+    EXPECT_THAT(refusalOfMesh("v 0 0 zero\nf 1 1 1\n"), HasSubstr("mesh.obj:1: found \"zero\""));
+}
+
+TEST(Scene, FacesOfManyCorners) {
+    const int count = 5000;
+    std::string text, face = "f";
+    for (int i = 0; i < count; i++) { // a comb: every other corner is a reflex one
+        const double angle = 2 * std::numbers::pi * i / count, radius = i % 2 ? 1.0 : 0.9;
+        text += fmt::format("v {} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
+        face += fmt::format(" {}", i + 1);
+    }
+    const Scene scene = loadMeshText(text + face);
+    EXPECT_EQ(scene.triangleCount, count - 2 + 2u);
+    double area = 0;
+    for (uint i = 0; i < count - 2; i++) area += 0.5 * glm::length(glm::cross(scene.primitives[i].b - scene.primitives[i].a, scene.primitives[i].c - scene.primitives[i].a));
+    EXPECT_NEAR(area, 0.5 * count * 0.9 * std::sin(2 * std::numbers::pi / count), 1e-4);
+}
+
+TEST(Scene, OtherFormatsAreRecognised) {
+    using namespace std::literals;
+    std::string stl(84 + 50, '\0');
+    stl[80] = 1;
+    const std::pair<std::string, const char*> files[] = {{"ply\nformat ascii 1.0\n", "a PLY file"}, {"solid thing\n facet normal 0 0 1\n", "an STL file"}, {stl, "an STL file"},
+                                                         {"\x1f\x8b\x08\0\0"s, "compressed by gzip"}, {"glTF\2\0\0\0"s, "a GLB file"}, {"{\"asset\": {}}", "glTF"},
+                                                         {"BLENDER-v304", "a Blender file"}, {"Kaydara FBX Binary  \0"s, "an FBX file"}, {"PK\3\4", "a ZIP archive"}};
+    for (const auto& [text, name] : files) EXPECT_THAT(refusalOfMesh(text), AllOf(HasSubstr(name), HasSubstr("allowed is a Wavefront OBJ file"))) << name;
+}
+
+TEST(Scene, NoPhotonsAreAllowedAsOnTheCommandLine) {
+    json scene = smallScene();
+    scene["settings"]["photons"] = scene["settings"]["causticPhotons"] = 0;
+    EXPECT_EQ(loadJson(scene).settings.photons, 0u);
+    EXPECT_EQ(loadJson(scene).settings.causticPhotons, 0u);
 }
 
 TEST(Scene, TrianglesWithoutAreaAreDroppedWithAWarning) {

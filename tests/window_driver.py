@@ -29,7 +29,7 @@ def display(density: int = 1) -> Iterator[dict[str, str]]:
         os.close(write)
         try:
             number = os.fdopen(read).readline().strip()
-            environment = {**os.environ, "DISPLAY": f":{number}"}
+            environment = {**os.environ, "DISPLAY": f":{number}", "DISPLAY_SERVER": str(server.pid)}
             if density != 1:
                 resource = ["-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", f"Xft.dpi: {96 * density}\n"]
                 subprocess.run(["xprop", "-root", *resource], env=environment, check=True)

@@ -6,6 +6,7 @@ window_test.py VKPM --measure prints how fast the window opens, how smoothly the
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -153,6 +154,41 @@ def reloads_the_scene(environment: dict[str, str], folder: Path) -> None:
         expect_same_files(shown.output, expected)
 
 
+def keeps_passes_of_what_cannot_be_rendered(environment: dict[str, str], folder: Path) -> None:
+    """A scene that loads but cannot be rendered, and a film that no report fits: said, and the passes that are there go on."""
+    scene = folder / "refused.json"
+    text = BOX.read_text()
+    scene.write_text(text)
+    reference = render(scene, folder, *SMALL, "--passes", "2").rename(folder / "reference.exr")
+    with window(environment, folder, scene, *SMALL, "--report", str(folder / "report"), "--reference", str(reference)) as shown:
+        shown.await_passes(2)
+        scene.write_text(text.replace('"camera"', '"settings": {"radius": 1e-20}, "camera"'))
+        assert "radius" in shown.await_event("broken scene")["cause"]
+        passes = len(shown.events("pass"))
+        shown.resize(500 + shown.panel, 400)
+        shown.key("g")
+        eventually("passes after what was refused", lambda: len(shown.events("pass")) > passes + 2)
+        assert len(shown.events("start")) == 1, shown.events("start")
+        shown.process.send_signal(signal.SIGHUP)
+        shown.close(130)
+        done = str(shown.events("end")[-1]["passes"])
+    scene.write_text(text)
+    expect_same_files(shown.output, render(scene, folder, *SMALL, "--passes", done))
+
+
+def saves_when_the_display_goes(folder: Path) -> None:
+    """The server of the display is killed: exit code 1, and all passes are in the file."""
+    with display() as environment, window(environment, folder, BOX, *SMALL) as shown:
+        shown.await_passes(2)
+        os.kill(int(environment["DISPLAY_SERVER"]), signal.SIGKILL)
+        messages = shown.process.communicate(timeout=PATIENCE)[1]
+        assert shown.process.returncode == 1, (shown.process.returncode, messages)
+        assert "the display is gone" in messages, messages
+        passes = str(shown.events("end")[-1]["passes"])
+    assert int(passes) >= 2
+    expect_same_files(shown.output, render(BOX, folder, *SMALL, "--passes", passes))
+
+
 def resizes(environment: dict[str, str], folder: Path) -> None:
     """A larger window shows the film larger, or gives it its own size; a hidden panel gives it all."""
     with window(environment, folder, BOX, *SMALL, "--passes", "2") as shown:
@@ -271,6 +307,8 @@ def main() -> None:
         needs_a_display(folder)
         moves_the_camera(environment, folder)
         reloads_the_scene(environment, folder)
+        keeps_passes_of_what_cannot_be_rendered(environment, folder)
+        saves_when_the_display_goes(folder)
         resizes(environment, folder)
         pauses_by_mouse(environment, folder)
         shows_several_sizes(environment, folder)

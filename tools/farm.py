@@ -23,7 +23,7 @@ from farm_parts import Parts, Scene, Span, chunk_size, digest, missing_spans
 
 ROOT = Path(__file__).resolve().parent.parent
 VKPM = ROOT / "build/release/vkpm"
-OF_ONE_RUN = {"--time", "--pass-range", "--stats", "--log", "--resume", "--checkpoint"}
+OF_ONE_RUN = {"--time", "--target-error", "--pass-range", "--stats", "--log", "--report", "--reference", "--resume", "--no-resume", "--half", "--checkpoint"}
 
 
 class Failure(Exception):
@@ -241,13 +241,17 @@ def main() -> int:
     """Runs the farm, and tells how it failed."""
     args, options = parse_arguments()
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.default_int_handler)
     try:
         return farm(args, options)
     except Failure as failure:
         if str(failure):
             say(str(failure))
         return failure.code
+    except OSError as error:
+        say(f"tools/farm: {error.filename or args.output}: {error.strerror or error}; finished parts are kept, and the same command goes on with them")
+        return 1
     except KeyboardInterrupt:
         say("tools/farm: interrupted; finished parts are kept, and the same command goes on with them")
         return 130

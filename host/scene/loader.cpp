@@ -52,8 +52,8 @@ void readFilm(Reader film, Settings& settings) {
 void readSettings(Reader reader, Settings& settings) {
     constexpr uint many = 100'000'000;
     if (const auto passes = reader.find("passes")) settings.passes = passes->integer(1, 1'000'000);
-    if (const auto photons = reader.find("photons")) settings.photons = photons->integer(1, many);
-    if (const auto photons = reader.find("causticPhotons")) settings.causticPhotons = photons->integer(1, many);
+    if (const auto photons = reader.find("photons")) settings.photons = photons->integer(0, many);
+    if (const auto photons = reader.find("causticPhotons")) settings.causticPhotons = photons->integer(0, many);
     if (const auto radius = reader.find("radius")) settings.radius = radius->number(positive);
     if (const auto radius = reader.find("causticRadius")) settings.causticRadius = radius->number(positive);
     if (const auto rays = reader.find("gatherRays")) settings.gatherRays = rays->integer(1, mostGatherRays);

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace vkpm {
@@ -18,6 +19,7 @@ struct Mesh {
         std::optional<std::array<vec3, 3>> normals; // not of unit length
     };
     std::vector<Triangle> triangles;
+    std::vector<std::string> warnings;
 };
 
 /// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file lacks, weighted by angle

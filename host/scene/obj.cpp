@@ -2,16 +2,20 @@
 #include "scene/obj.h"
 #include "scene/text.h"
 #include "scene/triangulate.h"
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace vkpm {
 
 namespace {
 
-constexpr std::size_t mostCorners = 1000; // of a face
+constexpr std::size_t mostCorners = 20'000; // of a face: to cut the worst takes seconds
 
 /// Takes the next word off a line; empty at its end and before a comment.
 std::string_view takeWord(std::string_view& line) {
@@ -31,6 +35,13 @@ std::string_view takeLine(std::string_view& text) {
     return line;
 }
 
+/// What programs write for a number that is none: nan, -nan(ind), 1.#QNAN, inf ...
+bool isNotANumber(std::string_view word) {
+    std::string small;
+    for (const char c : word) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return small.find("nan") != small.npos || small.find("inf") != small.npos || small.find("#ind") != small.npos;
+}
+
 std::string_view takeIndex(std::string_view& word) {
     const std::size_t end = std::min(word.find('/'), word.size());
     const std::string_view index = word.substr(0, end);
@@ -44,9 +55,19 @@ public:
     explicit ObjReader(const std::filesystem::path& path) : file{path} {}
 
     Obj read(std::string_view text) {
-        while (!text.empty()) {
-            ++line;
-            readLine(takeLine(text));
+        for (std::size_t next = 1; !text.empty(); ++next) {
+            line = next;
+            std::string_view whole = takeLine(text);
+            if (whole.ends_with('\\')) {
+                joined.clear();
+                for (; whole.ends_with('\\') && !text.empty(); ++next) {
+                    joined.append(whole.substr(0, whole.size() - 1)) += ' ';
+                    whole = takeLine(text);
+                }
+                joined.append(whole.substr(0, whole.size() - whole.ends_with('\\')));
+                whole = joined;
+            }
+            readLine(whole);
         }
         if (faces.empty())
             fail(std::max<std::size_t>(line, 1), "the mesh has no faces", "lines of the form \"f 1 2 3\" are needed");
@@ -67,11 +88,24 @@ private:
 
     void readLine(std::string_view rest) {
         const std::string_view keyword = takeWord(rest);
-        if (keyword == "v") obj.vertices.push_back(readNumbers(rest));
-        else if (keyword == "vn") obj.normals.push_back(vec3{readNumbers(rest)});
-        else if (keyword == "f") readFace(rest);
+        if (keyword == "v") {
+            obj.vertices.push_back(readNumbers(rest));
+            if (!isFinite(obj.vertices.back())) unsound[obj.vertices.size() - 1] = {line, std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())).substr(0, 60))};
+        } else if (keyword == "vn") {
+            obj.normals.push_back(vec3{readNumbers(rest)});
+            obj.normalLines.push_back(line);
+        } else if (keyword == "usemtl") {
+            const std::string_view name = rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size()));
+            material = name.substr(0, name.find_last_not_of(" \t") + 1);
+            materialIsNew = true;
+        } else if (keyword == "f") {
+            readFace(rest);
+        }
     }
 
+    static bool isFinite(glm::dvec3 v) { return std::isfinite(v.x + v.y + v.z); }
+
+    /// Three numbers; those beyond the range of float are infinite.
     glm::dvec3 readNumbers(std::string_view rest) const {
         glm::dvec3 numbers;
         for (int i = 0; i < 3; ++i) {
@@ -81,11 +115,10 @@ private:
             double value = 0;
             const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
             const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1; // underflows to 0
-            if ((error != std::errc{} && !tiny) || end != word.data() + word.size() ||
-                !(std::abs(value) <= double{std::numeric_limits<float>::max()}))
-                fail(line, fmt::format("found \"{}\" as a coordinate", printable(found, 60)),
-                     "allowed are three finite numbers");
-            numbers[i] = value;
+            const bool huge = error == std::errc::result_out_of_range || std::abs(value) > double{std::numeric_limits<float>::max()};
+            const bool isNumber = (error == std::errc{} || error == std::errc::result_out_of_range) && end == word.data() + word.size();
+            if (!isNumber && !isNotANumber(word)) fail(line, fmt::format("found \"{}\" as a coordinate", printable(found, 60)), "allowed are three finite numbers");
+            numbers[i] = !isNumber ? std::numeric_limits<double>::quiet_NaN() : tiny ? 0 : huge ? std::numeric_limits<double>::infinity() : value;
         }
         return numbers;
     }
@@ -97,14 +130,19 @@ private:
             const uint vertex = readIndex(takeIndex(word), whole, obj.vertices.size());
             takeIndex(word); // of texture coordinates, which are not used
             const std::string_view normal = takeIndex(word);
-            corners.push_back({vertex, normal.empty() ? NONE : readIndex(normal, whole, obj.normals.size())});
+            corners.push_back({vertex, normal.empty() || normal == "0" ? NONE : readIndex(normal, whole, obj.normals.size())});
         }
         const std::size_t count = corners.size() - first;
-        if (count < 3) fail(line, fmt::format("a face of {} corners", count), "a face needs at least 3");
+        if (count < 3) {
+            corners.resize(first);
+            ++obj.skippedFaces;
+            return;
+        }
         if (count > mostCorners)
             fail(line, fmt::format("a face of {} corners", count),
                  fmt::format("allowed are {}; cut it into several", mostCorners));
         faces.push_back({corners.size(), line});
+        if (std::exchange(materialIsNew, false) && std::ranges::find(obj.materials, material) == obj.materials.end()) obj.materials.push_back(material);
     }
 
     uint readIndex(std::string_view digits, std::string_view corner, std::size_t count) const {
@@ -124,6 +162,7 @@ private:
         points.clear();
         for (const Obj::Corner corner : polygon) {
             requireIndex(corner.vertex, obj.vertices.size(), "vertex", face);
+            if (!isFinite(obj.vertices[corner.vertex])) refuseVertex(corner.vertex);
             if (corner.normal != NONE) requireIndex(corner.normal, obj.normals.size(), "normal", face);
             points.push_back(obj.vertices[corner.vertex]);
         }
@@ -136,8 +175,17 @@ private:
                  fmt::format("the file has {}", count));
     }
 
+    [[noreturn]] void refuseVertex(uint index) const {
+        const auto& [where, text] = unsound.at(index);
+        fail(where, fmt::format("found \"{}\" as coordinates of a vertex that a face uses", printable(text)), "allowed are three finite numbers");
+    }
+
     const std::filesystem::path& file;
     std::size_t line = 0;
+    std::string joined; // of continued lines
+    std::string material;
+    bool materialIsNew = false; // no face has it yet
+    std::map<std::size_t, std::pair<std::size_t, std::string>> unsound; // vertices that are not finite: line and text
     Obj obj;
     std::vector<Obj::Corner> corners; // of all faces
     std::vector<Face> faces;

@@ -185,6 +185,7 @@ void ShapeLoader::addMesh(Reader& shape) {
     const std::size_t added = scene.primitives.size() - first;
     const std::size_t dropped = mesh.triangles.size() - added;
     if (added == 0) fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
+    for (const std::string& warning : mesh.warnings) fileReader.warn(scene.warnings, warning);
     if (dropped > 0)
         shape.warn(scene.warnings,
                    fmt::format("{} of {} triangles have no area and were dropped", dropped, mesh.triangles.size()));
