@@ -105,7 +105,7 @@ int merge(const Options& options) {
     askFor(settings.layers, features);
     Film film(gpu, settings.size, features);
     for (const RenderFile& part : parts) restore(film, part);
-    saveRender(options.output, film, film.download(), settings, mergedAttributes(parts));
+    saveRender(options.output, film, settings, mergedAttributes(parts));
     return 0;
 }
 

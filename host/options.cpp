@@ -49,6 +49,8 @@ void addFiles(Parser& parser, Options& options) {
     parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
                [&](auto& name, auto& value) { options.log = outputOf(name, value); });
     parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
+    parser.flag("--no-resume", "save the picture and its layers alone, in half the bytes, without the sums from which --resume and merge go on", options.withoutSums);
+    parser.flag("--half", "save layers, but for depth, as 16-bit floats", options.half);
     parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)",
                [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
 }
@@ -146,6 +148,12 @@ void requireRender(Options& options) {
                fmt::format("passes below the {} of --passes", *options.passes));
     if (options.reference && !options.report) refuse("--reference", options.reference->string(), "only with --report FOLDER, which shows what is measured");
     if (options.integrator) requirePhotonMap(options, *options.integrator);
+    const auto needsSums = [&](const char* name, bool given) {
+        if (given && options.withoutSums) throw InputError(fmt::format("{}: found with --no-resume; allowed: one of the two, since it needs the sums that --no-resume leaves out", name));
+    };
+    needsSums("--resume", options.resume);
+    needsSums("--checkpoint", options.checkpoint.has_value());
+    needsSums("--pass-range", options.passRange.has_value());
 }
 
 const char* const WINDOW = R"(Renders until --passes, --time or --target-error, without these until the window is

@@ -25,6 +25,8 @@ struct Options {
     std::optional<std::filesystem::path> reference;
     std::optional<std::filesystem::path> report; // folder
     bool resume = false;
+    bool withoutSums = false; // --no-resume: the picture alone
+    bool half = false;        // layers as 16-bit floats
     std::optional<double> checkpoint;   // seconds between saves
     std::optional<double> seconds;      // of rendering
     std::optional<double> targetError;  // relative, to stop at

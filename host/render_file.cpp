@@ -5,7 +5,9 @@
 #include "output/exr.h"
 #include "output/film_image.h"
 #include "output/film_runs.h"
+#include "output/messages.h"
 #include "output/png.h"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -40,22 +42,39 @@ RenderFile openRender(const std::filesystem::path& file) {
 }
 
 void restore(Film& film, const RenderFile& file) {
-    const Image image = readExr(file.path);
-    for (std::size_t i = 0; i < file.runs.size(); i++) film.restore(file.runs[i], named(file.path, [&] { return sumsOf(image, i, file.layers); }));
+    const ExrFile exr(file.path);
+    exr.requireWhole();
+    const std::vector<std::string> names = named(file.path, [&] { return channelsOfSums(file.header, file.runs.size(), file.layers); });
+    const int right = int(exr.size().x) - 1;
+    film.restore(file.runs, [&](uint row, uint rows) {
+        return sumsOf(exr.read(names, {{0, int(row)}, {right, int(row + rows) - 1}}), file.runs.size(), length(file.passes()), file.layers);
+    });
 }
 
-void saveRender(const std::filesystem::path& output, const Film& film, std::span<const Pixel> pixels, const Settings& settings, std::map<std::string, std::string> attributes) {
+void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes, const Keeping& keeping) {
     const PassRange passes = film.passes();
-    Image image = filmImage(pixels, settings.size, settings.layers);
-    image.attributes = std::move(attributes);
-    image.attributes["passes"] = std::to_string(film.passCount());
-    image.attributes["passRange"] = fmt::format("{}:{}", passes.begin, passes.end);
-    image.attributes["exposure"] = fmt::format("{}", settings.exposure);
+    attributes["passes"] = std::to_string(film.passCount());
+    attributes["passRange"] = fmt::format("{}:{}", passes.begin, passes.end);
+    attributes["exposure"] = fmt::format("{}", settings.exposure);
     for (uint i = 0; i < layerNames.size(); i++)
-        if (settings.layers >> i & 1) image.attributes["layers"] += fmt::format("{}{}", image.attributes["layers"].empty() ? "" : " ", layerNames[i]);
-    for (std::size_t i = 0; i < film.runCount(); i++) addRun(image, film.run(i), film.sums(i), settings.layers);
-    writeExr(output, image);
-    writePng(pngBeside(output), settings.size, develop(pixels, settings.exposure));
+        if (settings.layers >> i & 1) attributes["layers"] += fmt::format("{}{}", attributes["layers"].empty() ? "" : " ", layerNames[i]);
+    if (keeping.sums) attributes["runs"] = runsText(film.ranges());
+
+    std::vector<uint> picture(std::size_t(settings.size.x) * settings.size.y);
+    const std::uint64_t clamped = writeExr(output, settings.size, attributes, [&](uint row, uint rows) {
+        const std::vector<Pixel> pixels = film.pixels(row, rows);
+        std::ranges::copy(develop(pixels, settings.exposure), picture.begin() + std::ptrdiff_t(row) * settings.size.x);
+        Image image = filmImage(pixels, {settings.size.x, rows}, settings.layers);
+        if (keeping.half)
+            for (Channel& channel : image.channels) channel.storage = channel.name == "depth.Z" ? Storage::float32 : Storage::half;
+        if (!keeping.sums) return image;
+        std::vector<std::vector<PixelSum>> sums;
+        for (std::size_t run = 0; run < film.runCount(); run++) sums.push_back(film.sums(run, row, rows));
+        addRuns(image, pixels, sums, film.passCount(), settings.layers, !keeping.half);
+        return image;
+    });
+    if (clamped > 0) warn(fmt::format("{}: {} values are larger than 65504, the largest 16-bit float, and were saved as that; without --half they are saved as they are", output.string(), clamped));
+    writePng(pngBeside(output), settings.size, picture);
 }
 
 } // namespace vkpm

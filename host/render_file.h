@@ -24,8 +24,14 @@ RenderFile openRender(const std::filesystem::path& file);
 /// Gives the film all passes of a file. Throws InputError with file and cause.
 void restore(Film& film, const RenderFile& file);
 
-/// Writes the picture of a film (its pixels as downloaded) with its sums and further attributes, and a PNG beside it; size, layers
-/// and exposure are the settings'.
-void saveRender(const std::filesystem::path& output, const Film& film, std::span<const Pixel> pixels, const Settings& settings, std::map<std::string, std::string> attributes);
+/// What a file has of a render.
+struct Keeping {
+    bool sums = true;  // over passes, from which it can go on or be merged
+    bool half = false; // layers as 16-bit floats
+};
+
+/// Writes the picture of a film with its sums and further attributes, and a PNG beside it, some rows at a time; size, layers and exposure
+/// are the settings'.
+void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes, const Keeping& keeping = {});
 
 } // namespace vkpm

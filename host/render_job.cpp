@@ -109,9 +109,9 @@ bool RenderJob::done() const {
     return options.seconds && restored + rendered > 0 && elapsed() + 0.5 * elapsed() / std::max(rendered, 1u) >= *options.seconds;
 }
 
-std::optional<ErrorEstimate> RenderJob::estimateOf(std::span<const Pixel> pixels) const {
+std::optional<ErrorEstimate> RenderJob::estimateNow() const {
     if (noiseFreedom(renderer.film.ranges()) == 0 || !(settings.layers >> ASK_NOISE & 1)) return {};
-    return estimateError(pixels, settings.size);
+    return estimateError([&](uint row, uint rows) { return renderer.film.pixels(row, rows); }, settings.size);
 }
 
 /// Estimates the error at numbers of passes that grow by a quarter: a function of the passes alone, so that a render that is
@@ -121,19 +121,19 @@ void RenderJob::estimate() {
     uint due = leastPassesForError;
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
-    error = estimateOf(renderer.film.download());
+    error = estimateNow();
     if (error) log.write("error", {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
 }
 
 void RenderJob::addToReport() {
     const auto before = Clock::now();
-    const std::vector<Pixel> pixels = renderer.film.download();
-    report->add({.passes = passCount(), .seconds = seconds(), .rays = rays(), .photons = photons(), .estimate = estimateOf(pixels)},
-                filmImage(pixels, settings.size, settings.layers));
+    report->add({.passes = passCount(), .seconds = seconds(), .rays = rays(), .photons = photons(), .estimate = estimateNow()},
+                filmImage(renderer.film.download(), settings.size, settings.layers));
     reporting += secondsSince(before);
 }
 
-void RenderJob::finishReport(std::span<const Pixel> pixels) const {
+void RenderJob::finishReport() const {
+    const std::vector<Pixel> pixels = renderer.film.download();
     report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, settings.exposure),
                    {{"scene", options.scene.string()}, {"settings", identity.at("settings")}, {"version", identity.at("version")}, {"device", device},
                     {"reference", options.reference ? options.reference->string() : "none"}});
@@ -182,7 +182,7 @@ void RenderJob::sayWhatIsSaved() const {
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
 void RenderJob::checkpoint() {
     try {
-        save(renderer.film.download());
+        save();
         savedPasses = passCount();
         log.write("checkpoint", {{"file", options.output.string()}, {"passes", passCount()}});
     } catch (const std::runtime_error& failure) {
@@ -192,7 +192,7 @@ void RenderJob::checkpoint() {
     saved = Clock::now();
 }
 
-void RenderJob::save(std::span<const Pixel> pixels) {
+void RenderJob::save() {
     std::map<std::string, std::string> attributes = identity;
     attributes["device"] = device;
     attributes["needed"] = fmt::format("{}", fmt::join(manifest(renderer.features(), settings, true), "; "));
@@ -200,7 +200,7 @@ void RenderJob::save(std::span<const Pixel> pixels) {
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(beginning));
-    saveRender(options.output, renderer.film, pixels, settings, std::move(attributes));
+    saveRender(options.output, renderer.film, settings, std::move(attributes), {.sums = !options.withoutSums, .half = options.half});
 }
 
 Statistics RenderJob::statistics() const {
@@ -236,10 +236,9 @@ bool RenderJob::finish() {
     for (const MapKind kind : {MapKind::global, MapKind::caustic})
         if (const std::uint64_t lost = renderer.photons(kind).lost)
             warn(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
-    const std::vector<Pixel> pixels = renderer.film.download();
-    save(pixels);
-    error = estimateOf(pixels);
-    if (report) finishReport(pixels);
+    save();
+    error = estimateNow();
+    if (report) finishReport();
     if (error && !options.quiet) writeText(stderr, describe(*error) + "\n");
     log.write("end", {{"file", options.output.string()}, {"passes", passCount()}, {"interrupted", interrupted()}});
     if (options.stats) writeStatistics(*options.stats, statistics());

@@ -39,7 +39,7 @@ public:
     /// Time that was no rendering: neither --time nor reports count it.
     void leaveOut(double seconds) { reporting += seconds; }
     /// Saves what there is.
-    void save(std::span<const Pixel> pixels);
+    void save();
 
     uint passCount() const { return renderer.film.passCount(); }
     uint restoredPasses() const { return restored; }
@@ -51,7 +51,7 @@ public:
     std::optional<GatherRadii> globalRadii() const;
     std::optional<GatherRadii> causticRadii() const;
     /// Nothing while there are no batches of passes that could differ, or if nobody asked for noise.
-    std::optional<ErrorEstimate> estimateOf(std::span<const Pixel> pixels) const;
+    std::optional<ErrorEstimate> estimateNow() const;
     /// The last estimate that --target-error asked for.
     const std::optional<ErrorEstimate>& lastError() const { return error; }
     /// What it did so far.
@@ -65,7 +65,7 @@ private:
     double elapsed() const { return secondsSince(beginning) - reporting; }
     void openReport();
     void addToReport();
-    void finishReport(std::span<const Pixel> pixels) const;
+    void finishReport() const;
     void checkpoint();
     void sayWhatIsSaved() const;
     std::uint64_t nonfinite() const;

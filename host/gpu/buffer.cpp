@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <mutex>
 #include <utility>
 
 namespace vkpm {
@@ -88,9 +89,11 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
 
 RawBuffer::~RawBuffer() = default;
 
-// Copies between the buffer and a staging buffer that the host sees.
+// Copies between the buffer and a staging buffer that the host sees; one thread at a time.
 static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset, const std::function<void(void*)>& before,
                   const std::function<void(const void*)>& after) {
+    static std::mutex one;
+    const std::lock_guard lock(one);
     const Allocation staging = allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
     void* mapped = staging.memory.mapMemory(0, VK_WHOLE_SIZE);
     if (before) before(mapped);

@@ -35,15 +35,15 @@ public:
     std::uint64_t size() const { return bytes / sizeof(T); }
     operator Ptr<T>() const { return {address}; }
 
-    void upload(std::span<const T> data) { write(data.data(), data.size_bytes()); }
+    void upload(std::span<const T> data, std::uint64_t first = 0) { write(data.data(), data.size_bytes(), first * sizeof(T)); }
     T read1(std::uint64_t index = 0) const {
         T value;
         read(&value, sizeof(T), index * sizeof(T));
         return value;
     }
-    std::vector<T> download(std::uint64_t count) const {
+    std::vector<T> download(std::uint64_t count, std::uint64_t first = 0) const {
         std::vector<T> data(count);
-        read(data.data(), count * sizeof(T));
+        read(data.data(), count * sizeof(T), first * sizeof(T));
         return data;
     }
     std::vector<T> download() const { return download(size()); }

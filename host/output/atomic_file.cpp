@@ -1,5 +1,6 @@
 /// Files that are replaced as a whole: written beside the old one, flushed, then renamed over it.
 #include "output/atomic_file.h"
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include <stdexcept>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace vkpm {
 namespace {
@@ -36,6 +38,8 @@ const char* whatHelps(int error) {
     throw std::runtime_error(fmt::format("{}: {}: {}{}", path.string(), call, std::strerror(error), whatHelps(error)));
 }
 
+} // namespace
+
 /// A file open for writing; removed again at the end of its life unless it was renamed or is a device.
 class Output {
 public:
@@ -56,6 +60,16 @@ public:
             const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
             if (written < 0 && errno != EINTR) fail(shown, "write", errno);
             if (written > 0) bytes = bytes.subspan(static_cast<size_t>(written));
+        }
+    }
+
+    void writeAt(std::span<const char> bytes, std::uint64_t offset) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+            if (written < 0 && errno != EINTR) fail(shown, "write", errno);
+            if (written <= 0) continue;
+            bytes = bytes.subspan(static_cast<size_t>(written));
+            offset += static_cast<std::uint64_t>(written);
         }
     }
 
@@ -80,6 +94,8 @@ private:
     bool removed;
     int descriptor = -1;
 };
+
+namespace {
 
 /// The file that a name stands for: symbolic links stay links, and what they point to is replaced.
 fs::path resolve(const fs::path& path) {
@@ -129,15 +145,36 @@ void flushFolder(const fs::path& target) {
 
 } // namespace
 
+struct FileReplacement::Parts {
+    explicit Parts(const fs::path& path) : device(isDevice(path)), target(device ? path : resolve(path)), output(device ? Output(path, path, 0, false) : openBeside(target, path)) {}
+
+    bool device;
+    fs::path target;
+    Output output;
+    std::vector<char> content; // of a device
+};
+
+FileReplacement::FileReplacement(const fs::path& path) : parts(std::make_unique<Parts>(path)) {}
+FileReplacement::~FileReplacement() = default;
+
+void FileReplacement::write(std::span<const char> bytes, std::uint64_t offset) {
+    if (!parts->device) return parts->output.writeAt(bytes, offset);
+    if (offset + bytes.size() > parts->content.size()) parts->content.resize(offset + bytes.size());
+    std::ranges::copy(bytes, parts->content.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
+void FileReplacement::commit() {
+    if (parts->device) return parts->output.write(parts->content);
+    parts->output.flush();
+    parts->output.close();
+    parts->output.renameTo(parts->target);
+    flushFolder(parts->target);
+}
+
 void replaceFile(const fs::path& path, std::span<const char> bytes) {
-    if (isDevice(path)) return Output(path, path, 0, false).write(bytes);
-    const fs::path target = resolve(path);
-    Output output = openBeside(target, path);
-    output.write(bytes);
-    output.flush();
-    output.close();
-    output.renameTo(target);
-    flushFolder(target);
+    FileReplacement file(path);
+    file.write(bytes, 0);
+    file.commit();
 }
 
 void requireWritable(const fs::path& path) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <vector>
 
 namespace vkpm {
@@ -27,10 +28,12 @@ double meanOf(const dvec3& v) { return (v.x + v.y + v.z) / 3; }
 /// Squares over those of the truth, as relmse has them.
 double relative(const dvec3& squares, const dvec3& truth) { return meanOf(squares / (truth * truth + 0.01)); }
 
+const uint truthReach = 2; // pixels around
+
 /// What a pixel shows, drawn towards the mean of the 5 x 5 pixels around it, the more so the noisier it is compared to how these
 /// differ: the mean of two normal distributions' product (Bishop 2006, eq. 2.141).
 dvec3 likelyTruth(const std::vector<dvec3>& colors, const Pixel& pixel, uvec2 size, uint x, uint y) {
-    const uint reach = 2;
+    const uint reach = truthReach;
     dvec3 sum{0}, squares{0};
     double count = 0;
     for (uint row = y - std::min(y, reach); row <= std::min(y + reach, size.y - 1); row++)
@@ -70,6 +73,9 @@ double studentQuantile(uint freedom) {
 struct Squares {
     double noise = 0;
     double bias = 0;
+};
+
+struct Sums : Squares {
     double count = 0;
     double variance = 0; // of the sum of squared errors
 };
@@ -79,19 +85,44 @@ double rootOfMean(double sum, double count) { return std::sqrt(std::max(0.0, sum
 } // namespace
 
 ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
+    return estimateError(
+        [&](uint firstRow, uint rows) {
+            const auto part = pixels.subspan(std::size_t(firstRow) * size.x, std::size_t(rows) * size.x);
+            return std::vector<Pixel>(part.begin(), part.end());
+        },
+        size);
+}
+
+/// Squared errors of the pixels of some rows.
+static void squaresOf(const std::function<std::vector<Pixel>(uint, uint)>& source, uvec2 size, uint firstRow, uint rows, Squares* squares) {
+    const uint first = firstRow - std::min(firstRow, truthReach), end = std::min(firstRow + rows + truthReach, size.y);
+    const std::vector<Pixel> pixels = source(first, end - first);
     std::vector<dvec3> colors;
     for (const Pixel& pixel : pixels) colors.push_back(exactBeauty(pixel));
-    std::array<Squares, parts * parts> blocks{};
-    Squares all;
+    for (uint y = firstRow - first; y < firstRow + rows - first; y++)
+        for (uint x = 0; x < size.x; x++) {
+            const Pixel& pixel = pixels[std::size_t(y) * size.x + x];
+            const dvec3 truth = likelyTruth(colors, pixel, {size.x, end - first}, x, y);
+            *squares++ = {relative(dvec3(pixel.noise) * dvec3(pixel.noise), truth), squaredBias(pixel) / (luminance(truth) * luminance(truth) + 0.01)};
+        }
+}
+
+ErrorEstimate estimateError(const std::function<std::vector<Pixel>(uint, uint)>& rows, uvec2 size) {
+    std::vector<Squares> pixels(std::size_t(size.x) * size.y);
+    const uint rowsAtOnce = 32;
+    tbb::parallel_for(0u, (size.y + rowsAtOnce - 1) / rowsAtOnce, [&](uint block) {
+        const uint row = block * rowsAtOnce;
+        squaresOf(rows, size, row, std::min(rowsAtOnce, size.y - row), pixels.data() + std::size_t(row) * size.x);
+    });
+    std::array<Sums, parts * parts> blocks{};
+    Sums all;
     for (std::size_t i = 0; i < pixels.size(); i++) {
         const uint x = static_cast<uint>(i % size.x), y = static_cast<uint>(i / size.x);
-        const dvec3 truth = likelyTruth(colors, pixels[i], size, x, y);
-        const Squares pixel{relative(dvec3(pixels[i].noise) * dvec3(pixels[i].noise), truth), squaredBias(pixels[i]) / (luminance(truth) * luminance(truth) + 0.01), 1};
-        all.variance += 2 * pixel.noise * pixel.noise;
-        for (Squares* sum : {&blocks[y * parts / size.y * parts + x * parts / size.x], &all}) {
-            sum->noise += pixel.noise;
-            sum->bias += pixel.bias;
-            sum->count += pixel.count;
+        all.variance += 2 * pixels[i].noise * pixels[i].noise;
+        for (Sums* sum : {&blocks[y * parts / size.y * parts + x * parts / size.x], &all}) {
+            sum->noise += pixels[i].noise;
+            sum->bias += pixels[i].bias;
+            sum->count++;
         }
     }
     const ErrorEstimate parts{.noise = rootOfMean(all.noise, all.count), .bias = rootOfMean(all.bias, all.count)};
@@ -99,7 +130,7 @@ ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
 
     // Variance of the mean of blocks, each by the pixels that it has.
     double spread = 0, used = 0;
-    for (const Squares& block : blocks) {
+    for (const Sums& block : blocks) {
         if (block.count == 0) continue;
         const double apart = (block.noise + block.bias) - square * block.count;
         spread += apart * apart;

@@ -1,8 +1,10 @@
 /// How wrong a picture is, without knowing the right one.
 #pragma once
 #include "render/pixel.h"
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace vkpm {
 
@@ -19,6 +21,8 @@ struct ErrorEstimate {
 /// them, differ, since what few pixels decide is less sure than what all of them say; and how much the sum of squares of this one
 /// picture may be off its expectation, if each pixel's error is normally distributed.
 ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size);
+/// The same of a picture that need not be in memory as a whole; `rows` gives some of its rows, to any thread.
+ErrorEstimate estimateError(const std::function<std::vector<Pixel>(uint firstRow, uint rows)>& rows, uvec2 size);
 
 /// Half the length of the interval around a channel of a pixel that has the truth in it with a probability of 0.9, for noise with
 /// `freedom` degrees of freedom.

@@ -4,6 +4,7 @@
 #include "settings.h"
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <fmt/format.h>
 
@@ -25,12 +26,15 @@ constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
     {"rest.R", 8},     {"rest.G", 8},     {"rest.B", 8},     {"square.Y", 9},
 }};
 
-std::string channelName(std::size_t run, std::size_t index) { return fmt::format("state{}.{}", run, COLUMN_NAMES[index].name); }
+/// Whether a column is a sum of what the file has as a mean.
+bool hasMean(std::size_t column) { return column < 21 || (column > 22 && column < 26); }
 
-const Channel& channelOf(const Image& image, const std::string& name) {
-    for (const Channel& channel : image.channels)
-        if (channel.name == name) return channel;
-    throw InputError(fmt::format("has no channel {}", name));
+std::string stateName(std::size_t run, std::size_t column) { return fmt::format("state{}.{}", run, COLUMN_NAMES[column].name); }
+std::string residueName(std::size_t column) { return fmt::format("residue0.{}", COLUMN_NAMES[column].name); }
+
+const Channel* channelOf(const Image& image, const std::string& name) {
+    const auto found = std::ranges::find(image.channels, name, &Channel::name);
+    return found == image.channels.end() ? nullptr : &*found;
 }
 
 std::vector<std::size_t> columnsOf(uint layers) {
@@ -40,14 +44,23 @@ std::vector<std::size_t> columnsOf(uint layers) {
     return columns;
 }
 
-/// Calls `copy` with a pixel and a column of `layers`; some pixels at a time, as many as stay in the cache.
-template <class Copy> void forEachValue(std::size_t pixels, uint layers, Copy copy) {
-    const std::vector<std::size_t> columns = columnsOf(layers);
-    const std::size_t block = 256;
-    for (std::size_t first = 0; first < pixels; first += block)
-        for (const std::size_t k : columns)
-            for (std::size_t i = first; i < std::min(first + block, pixels); i++) copy(i, k);
+float& at(PixelSum& sum, std::size_t column) { return reinterpret_cast<float*>(&sum)[column]; }
+float at(const PixelSum& sum, std::size_t column) { return reinterpret_cast<const float*>(&sum)[column]; }
+
+/// What the mean over all passes and the sums of the later runs say of the first run's sum.
+float predicted(float mean, uint passes, std::span<const std::vector<PixelSum>> runs, std::size_t pixel, std::size_t column) {
+    double sum = double(mean) * passes; // each operation by itself, so that no compiler fuses two
+    for (const auto& run : runs.subspan(1)) sum -= double(at(run[pixel], column));
+    return float(sum);
 }
+
+/// How far apart two floats are in their order by bits, small for either sign.
+uint residue(float value, float prediction) {
+    const auto apart = static_cast<std::int32_t>(std::bit_cast<uint>(value) - std::bit_cast<uint>(prediction));
+    return static_cast<uint>(apart) << 1 ^ static_cast<uint>(apart >> 31);
+}
+
+float fromResidue(uint bits, float prediction) { return std::bit_cast<float>(std::bit_cast<uint>(prediction) + (bits >> 1 ^ -(bits & 1))); }
 
 /// "12:16" at the front of `text`, which moves on behind it.
 PassRange takeRange(std::string_view& text) {
@@ -66,20 +79,32 @@ PassRange takeRange(std::string_view& text) {
 
 } // namespace
 
-void addRun(Image& image, PassRange passes, std::span<const PixelSum> sums, uint layers) {
-    std::string& runs = image.attributes["runs"];
-    const auto index = runs.empty() ? 0 : std::ranges::count(runs, ' ') + 1;
-    runs += fmt::format("{}{}:{}", runs.empty() ? "" : " ", passes.begin, passes.end);
-    std::vector<Channel> channels; // of all columns
-    for (std::size_t k = 0; k < PIXEL_FLOATS; k++) channels.push_back({channelName(std::size_t(index), k), {}});
-    for (const std::size_t k : columnsOf(layers)) channels[k].values.resize(sums.size());
-    forEachValue(sums.size(), layers, [&](std::size_t i, std::size_t k) { channels[k].values[i] = reinterpret_cast<const float*>(&sums[i])[k]; });
-    for (const std::size_t k : columnsOf(layers)) image.channels.push_back(std::move(channels[k]));
+void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::vector<PixelSum>> sums, uint passes, uint layers, bool exactMeans) {
+    for (std::size_t run = 0; run < sums.size(); run++)
+        for (const std::size_t k : columnsOf(layers)) {
+            const bool asResidue = run == 0 && exactMeans && hasMean(k);
+            Channel channel{asResidue ? residueName(k) : stateName(run, k), std::vector<float>(pixels.size()), asResidue ? Storage::bits : Storage::float32};
+            for (std::size_t i = 0; i < pixels.size(); i++) {
+                const float sum = at(sums[run][i], k);
+                channel.values[i] = asResidue ? std::bit_cast<float>(residue(sum, predicted(reinterpret_cast<const float*>(&pixels[i].mean)[k], passes, sums, i, k))) : sum;
+            }
+            rows.channels.push_back(std::move(channel));
+        }
+}
+
+std::string runsText(std::span<const PassRange> runs) {
+    std::string text;
+    for (const PassRange& run : runs) text += fmt::format("{}{}:{}", text.empty() ? "" : " ", run.begin, run.end);
+    return text;
 }
 
 std::vector<PassRange> runsOf(const Image& image) {
     const auto found = image.attributes.find("runs");
-    if (found == image.attributes.end() || found->second.empty()) throw InputError("is not a render of vkpm: it has no attribute vkpm/runs");
+    if (found == image.attributes.end() || found->second.empty()) {
+        const bool isPicture = image.attributes.contains("passes") && image.attributes.contains("settings");
+        throw InputError(isPicture ? "was saved with --no-resume: it has a picture, but not the sums over its passes, from which a render goes on or is merged"
+                                   : "is not a render of vkpm: it has no attribute vkpm/runs");
+    }
     std::vector<PassRange> runs;
     for (std::string_view text = found->second; !text.empty();) {
         runs.push_back(takeRange(text));
@@ -88,11 +113,30 @@ std::vector<PassRange> runsOf(const Image& image) {
     return runs;
 }
 
-std::vector<PixelSum> sumsOf(const Image& image, std::size_t run, uint layers) {
-    std::vector<PixelSum> sums(std::size_t(image.size.x) * image.size.y, PixelSum{});
-    std::array<const float*, PIXEL_FLOATS> values{};
-    for (const std::size_t k : columnsOf(layers)) values[k] = channelOf(image, channelName(run, k)).values.data();
-    forEachValue(sums.size(), layers, [&](std::size_t i, std::size_t k) { reinterpret_cast<float*>(&sums[i])[k] = values[k][i]; });
+std::vector<std::string> channelsOfSums(const Image& header, std::size_t runs, uint layers) {
+    std::vector<std::string> names;
+    for (std::size_t run = 0; run < runs; run++)
+        for (const std::size_t k : columnsOf(layers)) {
+            const bool asResidue = run == 0 && channelOf(header, residueName(k)) && channelOf(header, COLUMN_NAMES[k].name);
+            if (asResidue) names.insert(names.end(), {residueName(k), COLUMN_NAMES[k].name});
+            else if (channelOf(header, stateName(run, k))) names.push_back(stateName(run, k));
+            else throw InputError(fmt::format("has no channel {}", stateName(run, k)));
+        }
+    return names;
+}
+
+std::vector<std::vector<PixelSum>> sumsOf(const Image& rows, std::size_t runs, uint passes, uint layers) {
+    std::vector<std::vector<PixelSum>> sums(runs, std::vector<PixelSum>(std::size_t(rows.size.x) * rows.size.y, PixelSum{}));
+    for (std::size_t run = runs; run-- > 0;) // the first one last, as it may depend on the others
+        for (const std::size_t k : columnsOf(layers)) {
+            if (const Channel* state = channelOf(rows, stateName(run, k))) {
+                for (std::size_t i = 0; i < sums[run].size(); i++) at(sums[run][i], k) = state->values[i];
+                continue;
+            }
+            const Channel &bits = *channelOf(rows, residueName(k)), &means = *channelOf(rows, COLUMN_NAMES[k].name);
+            for (std::size_t i = 0; i < sums[run].size(); i++)
+                at(sums[run][i], k) = fromResidue(std::bit_cast<uint>(bits.values[i]), predicted(means.values[i], passes, sums, i, k));
+        }
     return sums;
 }
 

@@ -7,9 +7,13 @@
 
 namespace vkpm {
 
+/// How a channel's values are kept in a file: as they are, as the nearest 16-bit floats, or as the bits of whole numbers.
+enum class Storage { float32, half, bits };
+
 struct Channel {
     std::string name{};          // R, direct.G, depth.Z ...
     std::vector<float> values{}; // row by row, the top row first
+    Storage storage = Storage::float32;
 };
 
 struct Image {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace vkpm {
 namespace {
@@ -35,16 +36,13 @@ std::vector<Place> placesOf(const Columns& film) {
     return places;
 }
 
-/// Calls `copy` with a pixel, and the places of a float in its PixelSum and among the columns of a film; some pixels at a time,
-/// as many as stay in the cache.
-template <class Copy> void forEachFloat(const Columns& film, uint pixels, Copy copy) {
-    const std::vector<Place> places = placesOf(film);
-    const uint block = 256;
-    for (uint first = 0; first < pixels; first += block)
-        for (const Place& place : places)
-            for (uint k = 0; k < place.floats; k++)
-                for (uint i = first; i < std::min(first + block, pixels); i++) copy(i, place.inPixel + k, place.inFilm + k);
+/// Calls `use` with the places of each float in a PixelSum and among the columns of a film.
+template <class Use> void forEachFloat(const Columns& film, Use use) {
+    for (const Place& place : placesOf(film))
+        for (uint k = 0; k < place.floats; k++) use(place.inPixel + k, place.inFilm + k);
 }
+
+const uint rowsAtOnce = 32;
 
 /// Sums over runs of passes, in double precision.
 struct Total {
@@ -101,11 +99,15 @@ std::vector<PassRange> Film::ranges() const {
     return ranges;
 }
 
-Film::Run& Film::append(PassRange passes) {
-    assert(runs.empty() || runs.back().passes.end == passes.begin);
+Buffer<float> Film::emptySums() {
     Buffer<float> sums = spare.size() ? std::move(spare) : Buffer<float>(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * count);
     spare = {};
-    return runs.emplace_back(passes, std::move(sums));
+    return sums;
+}
+
+Film::Run& Film::append(PassRange passes) {
+    assert(runs.empty() || runs.back().passes.end == passes.begin);
+    return runs.emplace_back(passes, emptySums());
 }
 
 void Film::begin(uint pass) {
@@ -128,22 +130,41 @@ void Film::end() {
     joinLast();
 }
 
-std::vector<PixelSum> Film::sums(std::size_t index) const {
-    const std::vector<float> values = runs[index].sums.download();
-    std::vector<PixelSum> sums(count, PixelSum{});
-    forEachFloat(columns, count, [&](uint i, uint inPixel, uint inFilm) {
-        reinterpret_cast<float*>(&sums[i])[inPixel] = values[std::size_t(inFilm) * count + i];
+std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) const {
+    std::vector<PixelSum> sums(std::size_t(rows) * size.x, PixelSum{});
+    const std::uint64_t first = std::uint64_t(firstRow) * size.x;
+    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+        const std::vector<float> values = runs[index].sums.download(sums.size(), std::uint64_t(inFilm) * count + first);
+        for (std::size_t i = 0; i < sums.size(); i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[i];
     });
     return sums;
 }
 
+void Film::restore(std::span<const PassRange> passes, const std::function<std::vector<std::vector<PixelSum>>(uint, uint)>& sums) {
+    std::vector<Run> restored;
+    for (const PassRange range : passes) restored.push_back({range, emptySums()});
+    for (uint row = 0; row < size.y; row += rowsAtOnce) {
+        const std::vector<std::vector<PixelSum>> block = sums(row, std::min(rowsAtOnce, size.y - row));
+        for (std::size_t run = 0; run < restored.size(); run++) {
+            std::vector<float> values(block[run].size());
+            forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+                for (std::size_t i = 0; i < values.size(); i++) values[i] = reinterpret_cast<const float*>(&block[run][i])[inPixel];
+                restored[run].sums.upload(values, std::uint64_t(inFilm) * count + std::uint64_t(row) * size.x);
+            });
+        }
+    }
+    for (Run& run : restored) {
+        assert(runs.empty() || runs.back().passes.end == run.passes.begin);
+        runs.push_back(std::move(run));
+        joinLast();
+    }
+}
+
 void Film::restore(PassRange passes, std::span<const PixelSum> sums) {
-    std::vector<float> values(std::size_t(columns.SUM_COLUMNS) * count);
-    forEachFloat(columns, count, [&](uint i, uint inPixel, uint inFilm) {
-        values[std::size_t(inFilm) * count + i] = reinterpret_cast<const float*>(&sums[i])[inPixel];
+    restore(std::array{passes}, [&](uint row, uint rows) {
+        const auto block = sums.subspan(std::size_t(row) * size.x, std::size_t(rows) * size.x);
+        return std::vector<std::vector<PixelSum>>{{block.begin(), block.end()}};
     });
-    append(passes).sums.upload(values);
-    joinLast();
 }
 
 void Film::joinLast() {
@@ -159,26 +180,37 @@ void Film::joinLast() {
     }
 }
 
-std::vector<Pixel> Film::download() const {
+std::vector<Pixel> Film::pixels(uint firstRow, uint rows) const {
+    // Noise depends on what is around.
+    const uint first = firstRow - std::min(firstRow, uint(noiseReach)), end = std::min(firstRow + rows + noiseReach, size.y);
     const std::vector<PassRange> passes = ranges();
     const uint batch = greatestBatch(passes);
-    std::vector<Total> totals(count);
+    std::vector<Total> totals(std::size_t(end - first) * size.x);
     for (std::size_t i = 0; i < runs.size(); i++) {
-        const std::vector<PixelSum> run = sums(i);
-        for (uint p = 0; p < count; p++) totals[p].add(run[p], passes[i], batch);
+        const std::vector<PixelSum> run = sums(i, first, end - first);
+        for (std::size_t p = 0; p < totals.size(); p++) totals[p].add(run[p], passes[i], batch);
     }
 
     std::vector<Spread> spreads;
     for (const Total& total : totals)
         spreads.push_back({total.coarse.variance(batchesOf(passes, batch)), batch >= 4 ? total.fine.variance(batchesOf(passes, batch / 4)) : dvec3(0)});
-    const std::vector<vec3> noise = noiseOf(spreads, size, passes);
+    const std::vector<vec3> noise = noiseOf(spreads, {size.x, end - first}, passes);
     std::vector<Pixel> pixels;
-    pixels.reserve(count);
-    for (uint p = 0; p < count; p++) {
+    pixels.reserve(std::size_t(rows) * size.x);
+    for (std::size_t p = std::size_t(firstRow - first) * size.x; p < std::size_t(firstRow + rows - first) * size.x; p++) {
         pixels.push_back(totals[p].pixel(passCount()));
         pixels.back().noise = noise[p];
     }
     return pixels;
+}
+
+std::vector<Pixel> Film::download() const {
+    std::vector<Pixel> all(count);
+    tbb::parallel_for(0u, (size.y + rowsAtOnce - 1) / rowsAtOnce, [&](uint block) {
+        const uint row = block * rowsAtOnce;
+        std::ranges::copy(pixels(row, std::min(rowsAtOnce, size.y - row)), all.begin() + std::ptrdiff_t(row) * size.x);
+    });
+    return all;
 }
 
 std::array<std::uint64_t, LAYER_COUNT> Film::nonfinite() const {

@@ -21,11 +21,14 @@ public:
     /// Ends the pass.
     void end();
 
-    /// Takes over a run of passes that begins where the film ends.
+    /// Takes over runs of passes, the first of which begins where the film ends; `sums` gives those of some rows, of each run.
+    void restore(std::span<const PassRange> passes, const std::function<std::vector<std::vector<PixelSum>>(uint firstRow, uint rows)>& sums);
     void restore(PassRange passes, std::span<const PixelSum> sums);
     std::size_t runCount() const { return runs.size(); }
     PassRange run(std::size_t index) const { return runs[index].passes; }
-    std::vector<PixelSum> sums(std::size_t index) const;
+    /// The sums of a run; of some rows, from any thread.
+    std::vector<PixelSum> sums(std::size_t index, uint firstRow, uint rows) const;
+    std::vector<PixelSum> sums(std::size_t index) const { return sums(index, 0, size.y); }
 
     /// The passes taken so far.
     PassRange passes() const;
@@ -33,7 +36,8 @@ public:
     /// The runs that it keeps.
     std::vector<PassRange> ranges() const;
 
-    /// The means of all passes, and their noise (see render/noise.h).
+    /// The means of all passes, and their noise (see render/noise.h); of some rows, from any thread.
+    std::vector<Pixel> pixels(uint firstRow, uint rows) const;
     std::vector<Pixel> download() const;
     /// Samples that were not finite, by layer.
     std::array<std::uint64_t, LAYER_COUNT> nonfinite() const;
@@ -44,6 +48,7 @@ private:
         Buffer<float> sums; // [column][pixel]
     };
 
+    Buffer<float> emptySums();
     Run& append(PassRange passes);
     void joinLast();
 

@@ -7,8 +7,6 @@ namespace vkpm {
 
 using glm::dvec3;
 
-const int reach = 3; // pixels around
-
 // Of the gain from fine to coarse batches, in its logarithm, what goes on from coarse batches to the whole: measured on the shipped
 // scenes, where the spread of ten seeds asks for 0.55 to 1.
 const double lasting = 0.75;
@@ -43,7 +41,7 @@ std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
     const int width = int(size.x), height = int(size.y);
     const auto sum = [&](const std::vector<double>& in, int x, int y, int dx, int dy) {
         double total = 0;
-        for (int i = -reach; i <= reach; i++) {
+        for (int i = -noiseReach; i <= noiseReach; i++) {
             const int column = x + i * dx, row = y + i * dy;
             if (column >= 0 && column < width && row >= 0 && row < height) total += in[std::size_t(row) * size.x + std::size_t(column)];
         }

@@ -5,6 +5,9 @@
 
 namespace vkpm {
 
+/// Pixels around one that its noise depends on, to all sides.
+const int noiseReach = 3;
+
 /// Variances of the mean of a pixel as batches of two sizes tell it, as if batches were independent; 0 with a single batch.
 struct Spread {
     glm::dvec3 coarse{0}; // of batches of greatestBatch() passes

@@ -35,7 +35,7 @@ void RenderThread::publish() {
 /// At numbers of passes that grow by a quarter at least.
 void RenderThread::estimate(const Picture& shown) {
     const RenderJob& job = *session->job;
-    if (const auto error = job.estimateOf(shown.pixels)) own.errors.push_back({job.seconds(), shown.passes, *error});
+    if (const auto error = job.estimateNow()) own.errors.push_back({job.seconds(), shown.passes, *error});
     nextEstimate = shown.passes + (shown.passes + 3) / 4;
 }
 
@@ -50,7 +50,7 @@ void RenderThread::save(uint saves) {
     const std::string file = session->options.output.string();
     saved = saves;
     try {
-        job.save(job.renderer.film.download());
+        job.save();
         own.saved = fmt::format("{}, {} passes", file, job.passCount());
         own.saves++;
         log.write("save", {{"file", file}, {"passes", job.passCount()}});
