@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
 
 namespace vkpm {
 
@@ -46,29 +47,75 @@ static Json json(const LayerError& error) {
     return members;
 }
 
-static void requireOneSize(const Options& options, const Image& image, const Image& reference) {
-    if (image.size != reference.size)
-        throw InputError(fmt::format("{}: found {}x{} pixels; allowed: the {}x{} of {}", options.parts[0].string(), image.size.x, image.size.y,
-                                     reference.size.x, reference.size.y, options.parts[1].string()));
+static void requireOneSize(const Options& options, const ExrFile& image, const ExrFile& reference) {
+    if (image.size() != reference.size())
+        throw InputError(fmt::format("{}: found a picture of {}x{} pixels (display window); allowed: the {}x{} of {}", options.parts[0].string(), image.size().x, image.size().y,
+                                     reference.size().x, reference.size().y, options.parts[1].string()));
 }
 
-static Json measure(const Options& options, const Image& image, const Image& reference) {
-    const Layers layers = imageLayers(image);
-    const Layers references = imageLayers(reference);
-    Json errors = Json::object();
+/// Where both pictures have values of all these channels; refuses pictures that have none in common.
+static PixelBox commonRegion(const Options& options, const ExrFile& image, const ExrFile& reference, const std::vector<std::string>& names) {
+    PixelBox region{glm::ivec2(0), glm::ivec2(image.size()) - 1};
+    for (const ExrFile* file : {&image, &reference})
+        for (const ExrFile::Entry& entry : file->entries())
+            if (std::ranges::find(names, entry.name) != names.end()) region = {glm::max(region.low, entry.window.low), glm::min(region.high, entry.window.high)};
+    if (glm::any(glm::greaterThan(region.low, region.high))) {
+        const auto windows = [](const ExrFile& file) { return describe(file.entries().front().window); };
+        throw InputError(fmt::format("{}: has values at {} of its picture, {} at {} (data windows): nowhere both; allowed: pictures that overlap", options.parts[0].string(), windows(image),
+                                     options.parts[1].string(), windows(reference)));
+    }
+    return region;
+}
+
+/// The channels of layers, by name.
+static std::vector<std::string> channelsOf(const Layers& layers) {
+    std::vector<std::string> names;
+    for (const Layer& layer : layers) names.insert(names.end(), layer.channelNames.begin(), layer.channelNames.end());
+    return names;
+}
+
+/// What the files call the channels that are compared by another name.
+static Json renamed(const ExrFile& file, const std::vector<std::string>& names) {
+    Json object = Json::object();
+    for (const ExrFile::Entry& entry : file.entries())
+        if (entry.name != entry.inFile && std::ranges::find(names, entry.name) != names.end()) object[entry.name] = entry.inFile;
+    return object;
+}
+
+static Json measure(const Options& options) {
+    const ExrFile image(options.parts[0]), reference(options.parts[1]);
+    requireOneSize(options, image, reference);
+    const Image imageHeader = image.header(), referenceHeader = reference.header();
+    const Layers layers = imageLayers(imageHeader), references = imageLayers(referenceHeader);
+    const auto onlyInImage = onlyIn(layers, references), onlyInReference = onlyIn(references, layers);
+    Layers compared;
     for (const Layer& layer : layers)
-        if (const Layer* other = comparableIn(references, layer)) errors[layer.name] = json(measureLayer(layer, *other));
-    const auto onlyInImage = onlyIn(layers, references);
-    const auto onlyInReference = onlyIn(references, layers);
-    if (errors.empty())
-        throw InputError(fmt::format("{}: has no layer that {} has; found {} here and {} there", options.parts[0].string(),
-                                     options.parts[1].string(), fmt::join(onlyInImage, ", "), fmt::join(onlyInReference, ", ")));
-    return {{"image", options.parts[0].string()},
-            {"reference", options.parts[1].string()},
-            {"size", {image.size.x, image.size.y}},
-            {"layers", errors},
-            {"only_in_image", onlyInImage},
-            {"only_in_reference", onlyInReference}};
+        if (comparableIn(references, layer)) compared.push_back(layer);
+    if (compared.empty()) {
+        const auto found = [](const ExrFile& file, const std::vector<std::string>& names) {
+            return fmt::format("{}{}{}", fmt::join(names, ", "), file.leftOut().empty() ? "" : ", left out: ", file.leftOut());
+        };
+        throw InputError(fmt::format("{}: has no layer that {} has; found {} here and {} there; allowed: a picture as R, G and B, or as a layer that is named beauty, Combined, rgba ..., or the same layers",
+                                     options.parts[0].string(), options.parts[1].string(), found(image, onlyInImage), found(reference, onlyInReference)));
+    }
+    const std::vector<std::string> names = channelsOf(compared);
+    const PixelBox region = commonRegion(options, image, reference, names);
+    const Image values = image.read(names, region), truths = reference.read(names, region);
+    const Layers valueLayers = imageLayers(values), truthLayers = imageLayers(truths);
+    std::vector<LayerError> found(valueLayers.size());
+    tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t i) { found[i] = measureLayer(valueLayers[i], *comparableIn(truthLayers, valueLayers[i])); });
+    Json errors = Json::object();
+    for (std::size_t i = 0; i < found.size(); i++) errors[valueLayers[i].name] = json(found[i]);
+    Json result{{"image", options.parts[0].string()},
+                {"reference", options.parts[1].string()},
+                {"size", {values.size.x, values.size.y}},
+                {"layers", errors},
+                {"only_in_image", onlyInImage},
+                {"only_in_reference", onlyInReference}};
+    if (values.size != image.size()) result["region"] = {{"picture", {image.size().x, image.size().y}}, {"low", {region.low.x, region.low.y}}, {"high", {region.high.x, region.high.y}}};
+    for (const auto& [key, file] : {std::pair("named_in_image", &image), std::pair("named_in_reference", &reference)})
+        if (const Json others = renamed(*file, names); !others.empty()) result[key] = others;
+    return result;
 }
 
 /// The widest name of a layer, for the table's first column.
@@ -99,14 +146,17 @@ static void printComparison(const Json& comparison) {
     for (const auto& [key, where] : {std::pair("only_in_image", "image"), std::pair("only_in_reference", "reference")})
         if (!comparison[key].empty())
             fmt::print("Only in the {}: {}\n", where, fmt::join(comparison[key].get<std::vector<std::string>>(), ", "));
+    for (const auto& [key, where] : {std::pair("named_in_image", "image"), std::pair("named_in_reference", "reference")})
+        if (comparison.contains(key))
+            for (const auto& [name, other] : comparison[key].items()) fmt::print("{} is {} in the {}\n", name, other.get<std::string>(), where);
+    if (comparison.contains("region"))
+        fmt::print("Compared where both have values: {}x{} pixels from {},{} on, of {}x{}\n", comparison["size"][0].get<int>(), comparison["size"][1].get<int>(),
+                   comparison["region"]["low"][0].get<int>(), comparison["region"]["low"][1].get<int>(), comparison["region"]["picture"][0].get<int>(), comparison["region"]["picture"][1].get<int>());
     fmt::print("\n{}\n", MEASURES);
 }
 
 int compare(const Options& options) {
-    const Image image = readExr(options.parts[0]);
-    const Image reference = readExr(options.parts[1]);
-    requireOneSize(options, image, reference);
-    const Json comparison = measure(options, image, reference);
+    const Json comparison = measure(options);
     // A file's name may be no UTF-8.
     if (options.json) fmt::print("{}\n", comparison.dump(2, ' ', false, Json::error_handler_t::replace));
     else printComparison(comparison);

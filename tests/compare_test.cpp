@@ -2,7 +2,15 @@
 #include "output/exr.h"
 #include "output/layer_error.h"
 #include "program.h"
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -137,6 +145,114 @@ TEST_F(CompareFiles, TheTableHasALineForEachLayer) {
     EXPECT_THAT(result.output,
                 AllOf(HasSubstr("\nbeauty"), HasSubstr("\ndepth.Z"), HasSubstr("mean(x - r)"), Not(HasSubstr("nan"))));
     EXPECT_THAT(result.output, Not(HasSubstr("Only in")));
+}
+
+/// A part of an EXR file: channels with one value each, in a data window.
+struct Part {
+    std::string name;
+    Imath::Box2i window;
+    std::vector<std::pair<std::string, float>> channels;
+};
+
+/// Writes a file as other programs do: several parts, windows of their own.
+void writeParts(const std::filesystem::path& path, Imath::Box2i display, const std::vector<Part>& parts) {
+    std::vector<Imf::Header> headers;
+    for (const Part& part : parts) {
+        Imf::Header& header = headers.emplace_back(display, part.window);
+        header.setName(part.name);
+        header.setType(Imf::SCANLINEIMAGE);
+        for (const auto& [name, value] : part.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    }
+    Imf::MultiPartOutputFile file(path.c_str(), headers.data(), int(headers.size()));
+    for (std::size_t i = 0; i < parts.size(); i++) {
+        const Imath::Box2i& window = parts[i].window;
+        const auto width = std::size_t(window.max.x - window.min.x + 1);
+        std::vector<std::vector<float>> values;
+        values.reserve(parts[i].channels.size());
+        Imf::FrameBuffer buffer;
+        for (const auto& [name, value] : parts[i].channels) {
+            std::vector<float>& plane = values.emplace_back(width * std::size_t(window.max.y - window.min.y + 1));
+            for (std::size_t p = 0; p < plane.size(); p++) // a function of the place in the picture
+                plane[p] = value + float(window.min.x - display.min.x + int(p % width)) + 100 * float(window.min.y - display.min.y + int(p / width));
+            buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, plane.data(), window, sizeof(float), sizeof(float) * width));
+        }
+        Imf::OutputPart output(file, int(i));
+        output.setFrameBuffer(buffer);
+        output.writePixels(window.max.y - window.min.y + 1);
+    }
+}
+
+Imath::Box2i box(int left, int top, int right, int bottom) { return {{left, top}, {right, bottom}}; }
+const std::vector<std::pair<std::string, float>> RGB{{"R", 1.0f}, {"G", 2.0f}, {"B", 3.0f}};
+
+// Pictures are compared where they lie, whatever their data windows and the corner of the display window.
+TEST_F(CompareFiles, WindowsAreHeeded) {
+    writeParts(folder / "whole.exr", box(0, 0, 39, 29), {{"", box(0, 0, 39, 29), RGB}});
+    writeParts(folder / "elsewhere.exr", box(-7, 1000, 32, 1029), {{"", box(-7, 1000, 32, 1029), RGB}});
+    writeParts(folder / "overscan.exr", box(0, 0, 39, 29), {{"", box(-3, -2, 45, 31), RGB}});
+    writeParts(folder / "crop.exr", box(5, 5, 44, 34), {{"", box(15, 8, 30, 20), RGB}});
+    for (const auto& [name, width, height] : {std::tuple("elsewhere", 40, 30), {"overscan", 40, 30}, {"crop", 16, 13}})
+        for (const bool swapped : {false, true}) {
+            const std::string files = swapped ? fmt::format("{}.exr whole.exr", name) : fmt::format("whole.exr {}.exr", name);
+            const Result result = run("compare --json " + files);
+            ASSERT_EQ(result.code, 0) << result.output;
+            const auto json = nlohmann::json::parse(result.output);
+            EXPECT_EQ(json["layers"]["beauty"]["max_error"], 0) << files;
+            EXPECT_EQ(json["size"], (std::vector{width, height})) << files;
+            EXPECT_EQ(json.contains("region"), std::string(name) == "crop");
+        }
+    EXPECT_THAT(run("compare whole.exr crop.exr").output, HasSubstr("Compared where both have values: 16x13 pixels from 10,3 on, of 40x30"));
+
+    writeParts(folder / "other.exr", box(0, 0, 39, 29), {{"", box(0, 0, 9, 29), RGB}});
+    writeParts(folder / "shifted.exr", box(0, 0, 95, 79), {{"", box(16, 8, 55, 37), RGB}});
+    const Result apart = run("compare other.exr crop.exr"), sizes = run("compare whole.exr shifted.exr");
+    EXPECT_EQ(apart.code, 2);
+    EXPECT_THAT(apart.output, AllOf(HasSubstr("0,0 to 9,29"), HasSubstr("10,3 to 25,15")));
+    EXPECT_EQ(sizes.code, 2);
+    EXPECT_THAT(sizes.output, AllOf(HasSubstr("40x30"), HasSubstr("96x80"), HasSubstr("display window")));
+}
+
+TEST_F(CompareFiles, PicturesOfOtherProgramsAreFound) {
+    const Imath::Box2i all = box(0, 0, 15, 11);
+    writeParts(folder / "ours.exr", all, {{"", all, {{"R", 1.0f}, {"G", 2.0f}, {"B", 3.0f}, {"albedo.R", 4.0f}, {"albedo.G", 5.0f}, {"albedo.B", 6.0f}}}});
+    const auto with = [](const std::string& prefix, std::array<std::string, 3> letters, float first) {
+        std::vector<std::pair<std::string, float>> channels;
+        for (std::size_t i = 0; i < 3; i++) channels.emplace_back(prefix + letters[i], first + float(i));
+        return channels;
+    };
+    const auto both = [](std::vector<std::pair<std::string, float>> a, const std::vector<std::pair<std::string, float>>& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+    };
+    const std::array<std::string, 3> big{"R", "G", "B"}, small{"r", "g", "b"}, words{"red", "green", "blue"};
+    const std::pair<const char*, std::vector<Part>> files[] = {
+        {"Blender", {{"", all, both(with("ViewLayer.Combined.", big, 1), with("ViewLayer.DiffDir.", big, 7))}}},
+        {"V-Ray", {{"", all, both(with("", words, 1), with("diffuse.", words, 7))}}},
+        {"V-Ray, named", {{"", all, both(with("effectsResult.", words, 9), with("RGB_color.", words, 1))}}},
+        {"Mitsuba, a nested integrator", {{"", all, both(with("image.", big, 1), {{"nn.X", 0.0f}, {"nn.Y", 0.0f}, {"nn.Z", 0.0f}})}}},
+        {"one colour", {{"", all, with("myrender.", small, 1)}}},
+        {"beauty in a later part", {{"albedo", all, with("albedo.", big, 4)}, {"beauty", all, with("", big, 1)}}},
+        {"parts that repeat their names", {{"rgba", all, with("rgba.", big, 1)}, {"depth", all, {{"depth.Z", 1.0f}}}}}};
+    for (const auto& [name, parts] : files) {
+        writeParts(folder / "theirs.exr", all, parts);
+        for (const char* order : {"ours.exr theirs.exr", "theirs.exr ours.exr"}) {
+            const Result result = run(std::string("compare --json ") + order);
+            ASSERT_EQ(result.code, 0) << name << result.output;
+            EXPECT_EQ(nlohmann::json::parse(result.output)["layers"]["beauty"]["max_error"], 0) << name << result.output;
+        }
+    }
+    EXPECT_EQ(nlohmann::json::parse(run("compare --json theirs.exr ours.exr").output)["named_in_image"]["R"], "rgba.R");
+
+    // Two colours, neither of which is known to be the picture: said, with what was found.
+    writeParts(folder / "theirs.exr", all, {{"", all, both(with("one.", big, 1), with("two.", big, 1))}});
+    const Result unknown = run("compare theirs.exr ours.exr");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.output, AllOf(HasSubstr("found one, two here and beauty, albedo there"), HasSubstr("Combined")));
+    // A reference that does not cover the picture is refused by its windows.
+    writeParts(folder / "crop.exr", box(0, 0, 23, 15), {{"", box(4, 4, 10, 10), RGB}});
+    const Result cropped = run("--scene " + scene("box") + Program::small + "--quiet --report r --reference crop.exr");
+    EXPECT_EQ(cropped.code, 2);
+    EXPECT_THAT(cropped.output, AllOf(HasSubstr("4,4 to 10,10"), HasSubstr("24x16")));
 }
 
 TEST_F(CompareFiles, RefusesWhatCannotBeCompared) {

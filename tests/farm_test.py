@@ -96,6 +96,10 @@ def refuse_option(farm: list[str]) -> None:
     refused = subprocess.run([*farm, "--photon", "1"], stderr=subprocess.PIPE, text=True, timeout=60)
     assert refused.returncode == 2
     assert "\nvkpm: --photon: unknown option" in "\n" + refused.stderr, refused.stderr  # after what a build may say
+    for option in ("--target-error=20%", "--report=rep", "--reference=r.exr", "--no-resume", "--time=3"):
+        refused = subprocess.run([*farm, option], stderr=subprocess.PIPE, text=True, timeout=60)
+        assert refused.returncode == 2, (option, refused)
+        assert f"{option.split('=')[0]} is for one run of vkpm" in refused.stderr, (option, refused.stderr)
 
 
 def main() -> None:
@@ -110,6 +114,9 @@ def main() -> None:
             refuse_option(farm)
             interrupt_farm(farm, folder)
             kill_worker(farm, folder, victim)
+        full = subprocess.run([str(ROOT / "tools/farm"), *OPTIONS, "-o", "/dev/nowhere.exr"], stderr=subprocess.PIPE, text=True, timeout=120)
+        assert full.returncode in (1, 2), full
+        assert "Traceback" not in full.stderr, full.stderr
         assert output.read_bytes() == single.read_bytes()
         assert not processes_naming(folder)
         assert output.with_suffix(".png").read_bytes() == single.with_suffix(".png").read_bytes()

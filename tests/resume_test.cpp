@@ -67,6 +67,53 @@ TEST_F(Resume, HalvesAndPartsGiveTheFileOfOneRun) {
     EXPECT_EQ(passesOf("a.exr"), 5);
 }
 
+/// Channels of a file by name.
+std::map<std::string, std::vector<float>> channelsOf(const fs::path& file) {
+    std::map<std::string, std::vector<float>> channels;
+    for (const Channel& channel : readExr(file).channels) channels[channel.name] = channel.values;
+    return channels;
+}
+
+// Without sums a file has the same picture in fewer bytes, and is refused where it cannot go on.
+TEST_F(Resume, APictureAloneIsTheSamePicture) {
+    render("--passes 7 -o whole.exr");
+    render("--passes 7 --no-resume -o picture.exr");
+    const auto whole = channelsOf(folder / "whole.exr"), picture = channelsOf(folder / "picture.exr");
+    EXPECT_EQ(picture.size(), 31u);
+    for (const auto& [name, values] : picture) EXPECT_TRUE(std::memcmp(values.data(), whole.at(name).data(), values.size() * sizeof(float)) == 0) << name;
+    EXPECT_TRUE(bytesOf(folder / "picture.png") == bytesOf(folder / "whole.png"));
+    EXPECT_THAT(refusal(box + "--passes 9 --resume -o picture.exr"), HasSubstr("picture.exr: was saved with --no-resume"));
+    EXPECT_THAT(refusal("merge x.exr picture.exr"), HasSubstr("was saved with --no-resume"));
+    for (const char* option : {"--resume", "--checkpoint 1", "--pass-range 0:4"}) EXPECT_THAT(refusal(box + "--no-resume -o x.exr " + option), HasSubstr("found with --no-resume")) << option;
+}
+
+TEST_F(Resume, HalfFloatsGoOnWithTheBitsOfOneRun) {
+    render("--passes 7 --half -o half.exr");
+    render("--passes 21 --half --resume -o half.exr");
+    render("--passes 21 --half -o whole.exr");
+    expectSameFiles("half", "whole");
+    render("--passes 21 -o float.exr");
+    const auto half = channelsOf(folder / "half.exr"), exact = channelsOf(folder / "float.exr");
+    double most = 0;
+    for (const char* name : {"R", "G", "B", "direct.R", "indirect.G", "albedo.B"})
+        for (std::size_t i = 0; i < exact.at(name).size(); i++)
+            if (exact.at(name)[i] > 1e-4f) most = std::max(most, std::abs(double(half.at(name)[i]) / exact.at(name)[i] - 1));
+    EXPECT_GT(most, 1e-5);
+    EXPECT_LE(most, 0x1p-11);
+    EXPECT_TRUE(half.at("depth.Z") == exact.at("depth.Z"));
+
+    // A lamp too bright for half floats: said, and finite.
+    json bright = json::parse(bytesOf(scene("box")));
+    for (json& shape : bright["shapes"])
+        if (shape.contains("emission")) shape["emission"] = 1e6;
+    std::ofstream(folder / "bright.json") << bright;
+    const Result result = run("--scene bright.json --size 24x16 --passes 1 --photons 500 --caustic-photons 300 --quiet --half -o bright.exr");
+    EXPECT_EQ(result.code, 0);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("warning: bright.exr: "), HasSubstr("larger than 65504")));
+    const auto saved = channelsOf(folder / "bright.exr").at("emission.R");
+    EXPECT_EQ(*std::ranges::max_element(saved), 65504);
+}
+
 TEST_F(Resume, MergeRefusesByName) {
     for (const char* range : {"0:4", "2:6", "4:8", "12:16"}) render(fmt::format("--pass-range {} -o {}.exr", range, std::string(range).replace(std::string(range).find(':'), 1, "-")));
     EXPECT_THAT(refusal("merge x.exr 0-4.exr 2-6.exr"), AllOf(HasSubstr("0-4.exr and 2-6.exr"), HasSubstr("passes 2 to 3")));

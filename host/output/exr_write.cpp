@@ -71,10 +71,13 @@ Bytes packed(const Image& block, const std::vector<std::size_t>& order, uint row
 Bytes compressed(Bytes raw) {
     thread_local const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(libdeflate_alloc_compressor(LEVEL), libdeflate_free_compressor);
     if (!compressor) throw std::bad_alloc();
-    const std::size_t half = (raw.size() + 1) / 2;
+    const std::size_t half = (raw.size() + 1) / 2, rest = raw.size() - half;
     Bytes apart(raw.size());
-    for (std::size_t i = 0; i < raw.size(); i++) apart[(i & 1 ? half : 0) + i / 2] = raw[i];
-    for (std::size_t i = apart.size() - 1; i > 0; i--) apart[i] = static_cast<unsigned char>(apart[i] - apart[i - 1] + 128);
+    const auto difference = [](unsigned char now, unsigned char before) { return static_cast<unsigned char>(now - before + 128); };
+    apart[0] = raw[0];
+    for (std::size_t i = 1; i < half; i++) apart[i] = difference(raw[2 * i], raw[2 * i - 2]);
+    if (rest > 0) apart[half] = difference(raw[1], raw[2 * half - 2]);
+    for (std::size_t i = 1; i < rest; i++) apart[half + i] = difference(raw[2 * i + 1], raw[2 * i - 1]);
     Bytes small(raw.size());
     const std::size_t bytes = libdeflate_zlib_compress(compressor.get(), apart.data(), apart.size(), small.data(), small.size());
     if (bytes == 0 || bytes >= raw.size()) return raw;

@@ -80,16 +80,23 @@ PassRange takeRange(std::string_view& text) {
 } // namespace
 
 void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::vector<PixelSum>> sums, uint passes, uint layers, bool exactMeans) {
-    for (std::size_t run = 0; run < sums.size(); run++)
-        for (const std::size_t k : columnsOf(layers)) {
-            const bool asResidue = run == 0 && exactMeans && hasMean(k);
-            Channel channel{asResidue ? residueName(k) : stateName(run, k), std::vector<float>(pixels.size()), asResidue ? Storage::bits : Storage::float32};
-            for (std::size_t i = 0; i < pixels.size(); i++) {
-                const float sum = at(sums[run][i], k);
-                channel.values[i] = asResidue ? std::bit_cast<float>(residue(sum, predicted(reinterpret_cast<const float*>(&pixels[i].mean)[k], passes, sums, i, k))) : sum;
+    const std::vector<std::size_t> columns = columnsOf(layers);
+    const std::size_t block = 256; // pixels that stay in the cache
+    for (std::size_t run = 0; run < sums.size(); run++) {
+        const std::size_t firstChannel = rows.channels.size();
+        const auto isResidue = [&](std::size_t k) { return run == 0 && exactMeans && hasMean(k); };
+        for (const std::size_t k : columns)
+            rows.channels.push_back({isResidue(k) ? residueName(k) : stateName(run, k), std::vector<float>(pixels.size()), isResidue(k) ? Storage::bits : Storage::float32});
+        for (std::size_t first = 0; first < pixels.size(); first += block)
+            for (std::size_t c = 0; c < columns.size(); c++) {
+                const std::size_t k = columns[c];
+                std::vector<float>& values = rows.channels[firstChannel + c].values;
+                for (std::size_t i = first; i < std::min(first + block, pixels.size()); i++) {
+                    const float sum = at(sums[run][i], k);
+                    values[i] = isResidue(k) ? std::bit_cast<float>(residue(sum, predicted(reinterpret_cast<const float*>(&pixels[i].mean)[k], passes, sums, i, k))) : sum;
+                }
             }
-            rows.channels.push_back(std::move(channel));
-        }
+    }
 }
 
 std::string runsText(std::span<const PassRange> runs) {

@@ -1,7 +1,9 @@
 /// HDR-FLIP, tile by tile: a tile is looked at with all exposures while it lies in the cache.
 #include "output/flip.h"
 #include "output/flip_filters.h"
+#include <bit>
 #include <cassert>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <tbb/parallel_for.h>
@@ -25,23 +27,73 @@ const mat3 RGB_TO_XYZ = [] {
 const mat3 RGB_TO_OPPONENTS = glm::transpose(mat3(0, 1, 0, 1, -1, 0, 0, 1, -1)) * RGB_TO_XYZ;
 const mat3 OPPONENTS_TO_RGB = glm::inverse(RGB_TO_OPPONENTS);
 
-/// CIE L*a*b* of a colour in [0, 1], with a* and b* that fade in the dark (the Hunt effect).
-vec3 perceived(vec3 rgb) {
+// What is done to each pixel of a tile, for many exposures, is written as loops that compilers turn into vector instructions; on x86 in
+// two versions, of which the processor chooses. Neither fuses products and sums (CMakeLists.txt), so that both give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define VECTORIZED __attribute__((target_clones("avx2", "default")))
+#else
+#define VECTORIZED
+#endif
+
+/// The cube root of a number in [1e-3, 2], to the last bit or two: Halley's method from a third of the exponent.
+inline float cubeRoot(float t) {
+    float y = std::bit_cast<float>(std::bit_cast<uint>(t) / 3 + 0x2a514067u);
+    for (int i = 0; i < 2; ++i) {
+        const float cube = y * y * y;
+        y *= (cube + 2 * t) / (2 * cube + t);
+    }
+    return y;
+}
+
+/// x to a power, x not negative and the power above 0, to some 1e-6 of itself: 2^(power log2 x), each by its series.
+inline float raised(float x, float power) {
+    const uint bits = std::bit_cast<uint>(x) - 0x3f3504f3u; // of the root of a half
+    const float exponent = static_cast<float>(static_cast<std::int32_t>(bits) >> 23);
+    const float mantissa = std::bit_cast<float>((bits & 0x7fffffu) + 0x3f3504f3u);
+    const float s = (mantissa - 1) / (mantissa + 1), s2 = s * s;
+    const float log2 = exponent + s * (2.88539008f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * (0.412198583f + s2 * 0.320598898f))));
+    const float product = std::max(power * log2, -126.0f);
+    const float whole = (product + 12582912.0f) - 12582912.0f, part = product - whole;
+    const float two = 1 + part * (0.693147181f + part * (0.240226507f + part * (0.0555041087f + part * (0.00961812911f + part * (0.00133335581f + part * 0.000154035304f)))));
+    const float power2 = std::bit_cast<float>(static_cast<uint>(static_cast<std::int32_t>(whole) + 127) << 23);
+    return x > 0 ? two * power2 : 0.0f;
+}
+
+/// The curve of CIE L*a*b*.
+inline float perceivedRoot(float t) {
     constexpr float EDGE = 6.0f / 29;
-    const auto root = [](float t) { return t > EDGE * EDGE * EDGE ? std::cbrt(t) : t / (3 * EDGE * EDGE) + 4.0f / 29; };
-    const vec3 xyz = RGB_TO_XYZ * rgb;
-    const vec3 f(root(xyz.x), root(xyz.y), root(xyz.z));
+    const float root = cubeRoot(std::max(t, EDGE * EDGE * EDGE));
+    return t > EDGE * EDGE * EDGE ? root : t / (3 * EDGE * EDGE) + 4.0f / 29;
+}
+
+inline vec3 times(const mat3& m, vec3 v) {
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z, m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// CIE L*a*b* of a colour in [0, 1], with a* and b* that fade in the dark (the Hunt effect).
+inline vec3 perceived(const mat3& toXyz, vec3 rgb) {
+    const vec3 xyz = times(toXyz, rgb);
+    const vec3 f(perceivedRoot(xyz.x), perceivedRoot(xyz.y), perceivedRoot(xyz.z));
     const float lightness = 116 * f.y - 16;
     return {lightness, 0.01f * lightness * 500 * (f.x - f.y), 0.01f * lightness * 200 * (f.y - f.z)};
 }
 
 /// The distance HyAB of perceived colours (Abasi et al. 2020), great ones compressed.
-float distance(vec3 a, vec3 b) { return std::pow(std::abs(a.x - b.x) + glm::length(vec2(a.y - b.y, a.z - b.z)), 0.7f); }
+inline float distance(vec3 a, vec3 b) {
+    const float red = a.y - b.y, blue = a.z - b.z;
+    return raised(std::abs(a.x - b.x) + std::sqrt(red * red + blue * blue), 0.7f);
+}
+
+/// std::clamp by value, which compilers vectorize.
+inline float limited(float x, float low, float high) {
+    x = x < low ? low : x;
+    return x > high ? high : x;
+}
 
 /// The curve of ACES as fitted by Narkowicz 2016, in [0, 1]. The limits keep squares finite.
-float toneMapped(float radiance) {
-    const float x = 0.6f * std::clamp(radiance, -1e6f, 1e6f);
-    return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
+inline float toneMapped(float radiance) {
+    const float x = 0.6f * limited(radiance, -1e6f, 1e6f);
+    return limited(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0, 1);
 }
 
 /// The radiance that the curve takes to a part of white, in single precision as where it is used.
@@ -86,62 +138,73 @@ std::vector<float> exposures(const Layer& reference) {
     return factors;
 }
 
+using Planes = std::array<Plane, 3>;
+using PaddedPlanes = std::array<PaddedPlane, 3>;
+
+/// Opponents of radiance at an exposure.
+VECTORIZED void expose(const PaddedPlanes& radiance, float factor, const mat3& toOpponents, PaddedPlanes& opponents) {
+    const mat3 m = toOpponents;
+    const PaddedPlane &red = radiance[0], &green = radiance[1], &blue = radiance[2];
+    PaddedPlane &x = opponents[0], &y = opponents[1], &z = opponents[2];
+    for (size_t i = 0; i < PADDED * PADDED; ++i) {
+        const float r = toneMapped(factor * red[i]), g = toneMapped(factor * green[i]), b = toneMapped(factor * blue[i]);
+        const vec3 seen = times(m, vec3(r, g, b));
+        x[i] = seen.x, y[i] = seen.y, z[i] = seen.z;
+    }
+}
+
+/// The length of a derivative of brightness along both axes.
+VECTORIZED void detect(const PaddedPlane& brightness, const FlipFilters::Detector& derivative, const FlipFilters::Detector& smooth, Plane& length) {
+    Plane across;
+    convolve(brightness, derivative, smooth, across);
+    convolve(brightness, smooth, derivative, length);
+    for (size_t i = 0; i < length.size(); ++i) length[i] = std::sqrt(across[i] * across[i] + length[i] * length[i]);
+}
+
+/// Perceived colours of filtered opponents.
+VECTORIZED void perceive(const PaddedPlanes& opponents, const FlipFilters& f, const mat3& toRgb, const mat3& toXyz, Planes& colours) {
+    Plane narrow;
+    convolve(opponents[0], f.brightness, f.brightness, colours[0]);
+    convolve(opponents[1], f.redGreen, f.redGreen, colours[1]);
+    convolve(opponents[2], f.blueYellowWide, f.blueYellowWide, colours[2]);
+    convolve(opponents[2], f.blueYellowNarrow, f.blueYellowNarrow, narrow);
+    float *x = colours[0].data(), *y = colours[1].data(), *z = colours[2].data();
+    const mat3 rgb = toRgb, xyz = toXyz;
+    for (size_t i = 0; i < narrow.size(); ++i) {
+        vec3 colour = times(rgb, vec3(x[i], y[i], z[i] + narrow[i]));
+        for (int c = 0; c < 3; ++c) colour[c] = limited(colour[c], 0, 1);
+        const vec3 seen = perceived(xyz, colour);
+        x[i] = seen.x, y[i] = seen.y, z[i] = seen.z;
+    }
+}
+
 /// What an observer sees of one image in a tile.
 struct View {
-    std::array<PaddedPlane, 3> radiance;  // red, green, blue
-    std::array<PaddedPlane, 3> opponents; // at one exposure
-    std::array<Plane, 4> filtered;        // opponents; blue and yellow in two parts
-    Plane edges, points;                  // how strong they are
+    PaddedPlanes radiance;  // red, green, blue
+    PaddedPlanes opponents; // at one exposure
+    Planes colours;         // perceived
+    Plane edges, points;    // how strong they are
 
     void put(size_t i, vec3 colour) {
         for (int c = 0; c < 3; ++c) radiance[size_t(c)][i] = colour[c];
     }
 
-    void expose(float factor) {
-        const mat3 matrix = RGB_TO_OPPONENTS;
-        const auto [red, green, blue] = std::array{radiance[0].data(), radiance[1].data(), radiance[2].data()};
-        for (size_t i = 0; i < PADDED * PADDED; ++i) {
-            const vec3 seen =
-                matrix * vec3(toneMapped(factor * red[i]), toneMapped(factor * green[i]), toneMapped(factor * blue[i]));
-            for (int c = 0; c < 3; ++c) opponents[size_t(c)][i] = seen[c];
-        }
-    }
-
     void filter(const FlipFilters& f) {
-        filtered[0] = convolve(opponents[0], f.brightness, f.brightness);
-        filtered[1] = convolve(opponents[1], f.redGreen, f.redGreen);
-        filtered[2] = convolve(opponents[2], f.blueYellowWide, f.blueYellowWide);
-        filtered[3] = convolve(opponents[2], f.blueYellowNarrow, f.blueYellowNarrow);
-        edges = detected(f.edge, f.smooth);
-        points = detected(f.point, f.smooth);
-    }
-
-    vec3 colour(size_t i) const {
-        const vec3 seen(filtered[0][i], filtered[1][i], filtered[2][i] + filtered[3][i]);
-        return perceived(glm::clamp(OPPONENTS_TO_RGB * seen, 0.0f, 1.0f));
-    }
-
-private:
-    /// The length of a derivative along both axes.
-    Plane detected(const FlipFilters::Detector& derivative, const FlipFilters::Detector& smooth) const {
-        const Plane dx = convolve(opponents[0], derivative, smooth);
-        Plane length = convolve(opponents[0], smooth, derivative);
-        for (size_t i = 0; i < length.size(); ++i) length[i] = std::sqrt(dx[i] * dx[i] + length[i] * length[i]);
-        return length;
+        perceive(opponents, f, OPPONENTS_TO_RGB, RGB_TO_XYZ, colours);
+        detect(opponents[0], f.edge, f.smooth, edges);
+        detect(opponents[0], f.point, f.smooth, points);
     }
 };
 
-/// The difference of a pixel's colours in [0, 1]: four tenths of the greatest distance fill 95 % of it.
-float colourDifference(const View& a, const View& b, size_t i) {
-    static const float greatest = distance(perceived({0, 1, 0}), perceived({0, 0, 1}));
-    const float part = distance(a.colour(i), b.colour(i)) / greatest;
-    return part < 0.4f ? part * (0.95f / 0.4f) : 0.95f + (part - 0.4f) * (0.05f / 0.6f);
-}
-
-/// The difference of edges or of points, whichever is greater, in [0, 1].
-float featureDifference(const View& a, const View& b, size_t i) {
-    const float difference = std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
-    return std::sqrt(difference / std::numbers::sqrt2_v<float>);
+/// Keeps the greater error of each pixel. The difference of colours in [0, 1], of which four tenths of the greatest distance fill 95 %, to
+/// a power that the difference of edges or of points lessens, whichever is greater.
+VECTORIZED void keepGreater(const Planes& a, const Planes& b, const Plane& edges, const Plane& otherEdges, const Plane& points, const Plane& otherPoints, float greatest, Plane& error) {
+    for (size_t i = 0; i < error.size(); ++i) {
+        const float part = distance(vec3(a[0][i], a[1][i], a[2][i]), vec3(b[0][i], b[1][i], b[2][i])) / greatest;
+        const float colour = part < 0.4f ? part * (0.95f / 0.4f) : 0.95f + (part - 0.4f) * (0.05f / 0.6f);
+        const float feature = std::sqrt(std::max(std::abs(edges[i] - otherEdges[i]), std::abs(points[i] - otherPoints[i])) / std::numbers::sqrt2_v<float>);
+        error[i] = std::max(error[i], raised(colour, 1 - feature));
+    }
 }
 
 /// The pixel that a tile's padded plane has at a place; beyond the border those at the border go on.
@@ -167,16 +230,15 @@ struct Tile {
     /// Takes the greatest error over all exposures.
     void compare(const std::vector<float>& factors) {
         static const FlipFilters filters;
+        static const float greatest = distance(perceived(RGB_TO_XYZ, {0, 1, 0}), perceived(RGB_TO_XYZ, {0, 0, 1}));
         if (image.radiance == reference.radiance) return;
         for (const float factor : factors) {
-            image.expose(factor);
-            reference.expose(factor);
+            expose(image.radiance, factor, RGB_TO_OPPONENTS, image.opponents);
+            expose(reference.radiance, factor, RGB_TO_OPPONENTS, reference.opponents);
             if (image.opponents == reference.opponents) continue;
             image.filter(filters);
             reference.filter(filters);
-            for (size_t i = 0; i < error.size(); ++i)
-                error[i] = std::max(error[i], std::pow(colourDifference(image, reference, i),
-                                                       1 - featureDifference(image, reference, i)));
+            keepGreater(image.colours, reference.colours, image.edges, reference.edges, image.points, reference.points, greatest, error);
         }
     }
 

@@ -88,25 +88,23 @@ private:
     }
 };
 
-/// A row of TILE sums, each over neighbours that are `stride` apart, from `first` on.
-template <size_t COUNT>
-void convolveRow(const float* first, size_t stride, const std::array<float, COUNT>& taps, float* row) {
-    std::array<float, TILE> sums{};
-    for (size_t k = 0; k < COUNT; ++k)
-        for (size_t x = 0; x < TILE; ++x) sums[x] += taps[k] * first[k * stride + x];
-    std::copy_n(sums.data(), TILE, row);
-}
-
 /// A tile under a filter that is the product of one along each axis.
 template <size_t COUNT>
-Plane convolve(const PaddedPlane& plane, const std::array<float, COUNT>& alongX,
-               const std::array<float, COUNT>& alongY) {
+[[gnu::always_inline]] inline void convolve(const PaddedPlane& plane, const std::array<float, COUNT>& alongX, const std::array<float, COUNT>& alongY, Plane& result) {
     constexpr size_t MARGIN = HALO - COUNT / 2;
     std::array<float, TILE * PADDED> rows;
-    for (size_t y = 0; y < PADDED; ++y) convolveRow(&plane[y * PADDED + MARGIN], 1, alongX, &rows[y * TILE]);
-    Plane result;
-    for (size_t y = 0; y < TILE; ++y) convolveRow(&rows[(y + MARGIN) * TILE], TILE, alongY, &result[y * TILE]);
-    return result;
+    // A row of TILE sums, each over neighbours that are `stride` apart, from `first` on.
+    const auto sumRow = [](const float* first, size_t stride, const std::array<float, COUNT>& taps, float* row) __attribute__((always_inline)) {
+        constexpr size_t AT_ONCE = 32; // sums that stay in registers
+        for (size_t begin = 0; begin < TILE; begin += AT_ONCE) {
+            std::array<float, AT_ONCE> sums{};
+            for (size_t k = 0; k < COUNT; ++k)
+                for (size_t x = 0; x < AT_ONCE; ++x) sums[x] += taps[k] * first[k * stride + begin + x];
+            for (size_t x = 0; x < AT_ONCE; ++x) row[begin + x] = sums[x];
+        }
+    };
+    for (size_t y = MARGIN; y < PADDED - MARGIN; ++y) sumRow(&plane[y * PADDED + MARGIN], 1, alongX, &rows[y * TILE]);
+    for (size_t y = 0; y < TILE; ++y) sumRow(&rows[(y + MARGIN) * TILE], TILE, alongY, &result[y * TILE]);
 }
 
 } // namespace vkpm

@@ -1,6 +1,7 @@
 /// The layers of an image, found by the names of its channels.
 #include "output/image_layers.h"
 #include <algorithm>
+#include <string_view>
 
 namespace vkpm {
 namespace {
@@ -10,11 +11,14 @@ using Values = std::map<std::string, std::span<const float>>; // by channel
 /// What stands before a channel's last letter: "direct." of direct.R, nothing of R.
 std::string prefixOf(const std::string& name) { return name.substr(0, name.rfind('.') + 1); }
 
-/// Whether a channel's name begins with state and a number, as in state0.direct.R.
+/// Whether a channel's name begins with state or residue and a number, as in state0.direct.R.
 bool isSumOverPasses(const std::string& name) {
-    if (!name.starts_with("state")) return false;
-    const size_t end = name.find_first_not_of("0123456789", 5);
-    return end != 5 && end != name.npos && name[end] == '.';
+    for (const std::string_view word : {"state", "residue"}) {
+        if (!name.starts_with(word)) continue;
+        const size_t end = name.find_first_not_of("0123456789", word.size());
+        if (end != word.size() && end != name.npos && name[end] == '.') return true;
+    }
+    return false;
 }
 
 /// The channels of a prefix that letters name, or none if one of them is missing.
@@ -34,9 +38,11 @@ Layer layerOf(const Values& values, const std::string& name, uvec2 size) {
     const std::string letters = isColour ? "RGB" : "XYZ";
     auto channels = triple(values, prefix, letters);
     const bool isPart = name.size() == prefix.size() + 1 && letters.find(name.back()) != letters.npos;
-    if (channels.empty() || !isPart) return {name, size, false, {values.at(name)}};
+    if (channels.empty() || !isPart) return {name, size, false, {values.at(name)}, {name}};
     const std::string unnamed = isColour ? "beauty" : "XYZ";
-    return {prefix.empty() ? unnamed : prefix.substr(0, prefix.size() - 1), size, isColour, std::move(channels)};
+    std::vector<std::string> names;
+    for (const char letter : letters) names.push_back(prefix + letter);
+    return {prefix.empty() ? unnamed : prefix.substr(0, prefix.size() - 1), size, isColour, std::move(channels), std::move(names)};
 }
 
 } // namespace

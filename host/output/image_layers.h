@@ -11,6 +11,7 @@ struct Layer {
     uvec2 size{0};
     bool isColour = false;
     std::vector<std::span<const float>> channels{}; // the image's own values
+    std::vector<std::string> channelNames{};
 };
 
 /// The layers of an image in the order of its channels, beauty being R, G and B without a name before them. Leaves out

@@ -132,11 +132,14 @@ void Film::end() {
 
 std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) const {
     std::vector<PixelSum> sums(std::size_t(rows) * size.x, PixelSum{});
-    const std::uint64_t first = std::uint64_t(firstRow) * size.x;
-    forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-        const std::vector<float> values = runs[index].sums.download(sums.size(), std::uint64_t(inFilm) * count + first);
-        for (std::size_t i = 0; i < sums.size(); i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[i];
-    });
+    std::vector<std::vector<float>> values(columns.SUM_COLUMNS);
+    for (uint column = 0; column < columns.SUM_COLUMNS; column++)
+        values[column] = runs[index].sums.download(sums.size(), std::uint64_t(column) * count + std::uint64_t(firstRow) * size.x);
+    const std::size_t block = 256; // pixels that stay in the cache
+    for (std::size_t first = 0; first < sums.size(); first += block)
+        forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+            for (std::size_t i = first; i < std::min(first + block, sums.size()); i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[inFilm][i];
+        });
     return sums;
 }
 
