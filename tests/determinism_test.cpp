@@ -21,7 +21,7 @@ protected:
 void expectSameBits(const Image& a, const Image& b, const std::string& what) {
     ASSERT_EQ(a.channels.size(), b.channels.size()) << what;
     for (std::size_t i = 0; i < a.channels.size(); i++) {
-        const auto& [name, values] = a.channels[i];
+        const auto& [name, values, storage] = a.channels[i];
         ASSERT_EQ(values.size(), b.channels[i].values.size());
         EXPECT_EQ(std::memcmp(values.data(), b.channels[i].values.data(), values.size() * sizeof(float)), 0) << what << ", " << name;
     }

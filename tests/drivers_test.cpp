@@ -29,7 +29,7 @@ protected:
         const Image image = readExr(folder / "box.exr");
         EXPECT_THAT(image.attributes.at("device"), testing::HasSubstr(device));
         Layers layers;
-        for (const auto& [name, values] : image.channels) {
+        for (const auto& [name, values, storage] : image.channels) {
             const std::size_t dot = name.find('.');
             const std::string prefix = dot == std::string::npos ? "beauty" : name.substr(0, dot);
             if (prefix.starts_with("state")) continue; // sums of the same values
