@@ -62,14 +62,15 @@ void saveRender(const std::filesystem::path& output, const Film& film, const Set
 
     std::vector<uint> picture(std::size_t(settings.size.x) * settings.size.y);
     const std::uint64_t clamped = writeExr(output, settings.size, attributes, [&](uint row, uint rows) {
-        const std::vector<Pixel> pixels = film.pixels(row, rows);
+        const FilmRows block = film.rows(row, rows);
+        const std::vector<Pixel>& pixels = block.pixels;
         std::ranges::copy(develop(pixels, settings.exposure), picture.begin() + std::ptrdiff_t(row) * settings.size.x);
         Image image = filmImage(pixels, {settings.size.x, rows}, settings.layers);
         if (keeping.half)
             for (Channel& channel : image.channels) channel.storage = channel.name == "depth.Z" ? Storage::float32 : Storage::half;
         if (!keeping.sums) return image;
-        std::vector<std::vector<PixelSum>> sums;
-        for (std::size_t run = 0; run < film.runCount(); run++) sums.push_back(film.sums(run, row, rows));
+        std::vector<std::span<const PixelSum>> sums;
+        for (const std::vector<PixelSum>& run : block.sums) sums.push_back(std::span(run).subspan(block.skipped, pixels.size()));
         addRuns(image, pixels, sums, film.passCount(), settings.layers, !keeping.half);
         return image;
     });

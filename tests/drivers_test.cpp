@@ -32,7 +32,7 @@ protected:
         for (const auto& [name, values, storage] : image.channels) {
             const std::size_t dot = name.find('.');
             const std::string prefix = dot == std::string::npos ? "beauty" : name.substr(0, dot);
-            if (prefix.starts_with("state")) continue; // sums of the same values
+            if (prefix.starts_with("state") || prefix.starts_with("residue")) continue; // sums of the same values
             auto& layer = layers[prefix];
             layer.insert(layer.end(), values.begin(), values.end());
         }

@@ -46,6 +46,11 @@ public:
         read(data.data(), count * sizeof(T), first * sizeof(T));
         return data;
     }
+    /// Downloads to the end of a vector.
+    void append(std::vector<T>& data, std::uint64_t count, std::uint64_t first) const {
+        data.resize(data.size() + count);
+        read(data.data() + data.size() - count, count * sizeof(T), first * sizeof(T));
+    }
     std::vector<T> download() const { return download(size()); }
 };
 

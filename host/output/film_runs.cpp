@@ -48,9 +48,9 @@ float& at(PixelSum& sum, std::size_t column) { return reinterpret_cast<float*>(&
 float at(const PixelSum& sum, std::size_t column) { return reinterpret_cast<const float*>(&sum)[column]; }
 
 /// What the mean over all passes and the sums of the later runs say of the first run's sum.
-float predicted(float mean, uint passes, std::span<const std::vector<PixelSum>> runs, std::size_t pixel, std::size_t column) {
+template <class Runs> float predicted(float mean, uint passes, const Runs& runs, std::size_t pixel, std::size_t column) {
     double sum = double(mean) * passes; // each operation by itself, so that no compiler fuses two
-    for (const auto& run : runs.subspan(1)) sum -= double(at(run[pixel], column));
+    for (std::size_t run = 1; run < runs.size(); run++) sum -= double(at(runs[run][pixel], column));
     return float(sum);
 }
 
@@ -79,7 +79,7 @@ PassRange takeRange(std::string_view& text) {
 
 } // namespace
 
-void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::vector<PixelSum>> sums, uint passes, uint layers, bool exactMeans) {
+void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes, uint layers, bool exactMeans) {
     const std::vector<std::size_t> columns = columnsOf(layers);
     const std::size_t block = 256; // pixels that stay in the cache
     for (std::size_t run = 0; run < sums.size(); run++) {

@@ -10,7 +10,7 @@ namespace vkpm {
 /// layerNames) need, and no more. `passes` of all runs together have the means that `pixels` say. With `exactMeans`, if these are in
 /// the file as they are, most sums of the first run are kept as residue0.*: how many floats they are from what the means say, which
 /// takes few bytes.
-void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::vector<PixelSum>> sums, uint passes, uint layers, bool exactMeans);
+void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes, uint layers, bool exactMeans);
 
 /// The runs that an image or its header says it has, ascending and adjacent. Throws InputError, without the file's
 /// name, if it has none or they make no sense.

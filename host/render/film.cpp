@@ -132,14 +132,18 @@ void Film::end() {
 
 std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) const {
     std::vector<PixelSum> sums(std::size_t(rows) * size.x, PixelSum{});
-    std::vector<std::vector<float>> values(columns.SUM_COLUMNS);
+    std::vector<float> values; // column by column
+    values.reserve(sums.size() * columns.SUM_COLUMNS);
     for (uint column = 0; column < columns.SUM_COLUMNS; column++)
-        values[column] = runs[index].sums.download(sums.size(), std::uint64_t(column) * count + std::uint64_t(firstRow) * size.x);
+        runs[index].sums.append(values, sums.size(), std::uint64_t(column) * count + std::uint64_t(firstRow) * size.x);
     const std::size_t block = 256; // pixels that stay in the cache
+    const std::vector<Place> places = placesOf(columns);
     for (std::size_t first = 0; first < sums.size(); first += block)
-        forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-            for (std::size_t i = first; i < std::min(first + block, sums.size()); i++) reinterpret_cast<float*>(&sums[i])[inPixel] = values[inFilm][i];
-        });
+        for (const Place& place : places)
+            for (uint k = 0; k < place.floats; k++) {
+                const float* from = values.data() + std::size_t(place.inFilm + k) * sums.size();
+                for (std::size_t i = first; i < std::min(first + block, sums.size()); i++) reinterpret_cast<float*>(&sums[i])[place.inPixel + k] = from[i];
+            }
     return sums;
 }
 
@@ -183,28 +187,26 @@ void Film::joinLast() {
     }
 }
 
-std::vector<Pixel> Film::pixels(uint firstRow, uint rows) const {
+FilmRows Film::rows(uint firstRow, uint count) const {
     // Noise depends on what is around.
-    const uint first = firstRow - std::min(firstRow, uint(noiseReach)), end = std::min(firstRow + rows + noiseReach, size.y);
+    const uint first = firstRow - std::min(firstRow, uint(noiseReach)), end = std::min(firstRow + count + noiseReach, size.y);
     const std::vector<PassRange> passes = ranges();
     const uint batch = greatestBatch(passes);
-    std::vector<Total> totals(std::size_t(end - first) * size.x);
-    for (std::size_t i = 0; i < runs.size(); i++) {
-        const std::vector<PixelSum> run = sums(i, first, end - first);
-        for (std::size_t p = 0; p < totals.size(); p++) totals[p].add(run[p], passes[i], batch);
-    }
+    const Batches coarse = batchesOf(passes, batch), fine = batch >= 4 ? batchesOf(passes, batch / 4) : Batches{};
+    FilmRows result{{}, {}, std::size_t(firstRow - first) * size.x};
+    for (std::size_t i = 0; i < runs.size(); i++) result.sums.push_back(sums(i, first, end - first));
 
-    std::vector<Spread> spreads;
-    for (const Total& total : totals)
-        spreads.push_back({total.coarse.variance(batchesOf(passes, batch)), batch >= 4 ? total.fine.variance(batchesOf(passes, batch / 4)) : dvec3(0)});
-    const std::vector<vec3> noise = noiseOf(spreads, {size.x, end - first}, passes);
-    std::vector<Pixel> pixels;
-    pixels.reserve(std::size_t(rows) * size.x);
-    for (std::size_t p = std::size_t(firstRow - first) * size.x; p < std::size_t(firstRow + rows - first) * size.x; p++) {
-        pixels.push_back(totals[p].pixel(passCount()));
-        pixels.back().noise = noise[p];
+    std::vector<Spread> spreads(std::size_t(end - first) * size.x);
+    result.pixels.reserve(std::size_t(count) * size.x);
+    for (std::size_t p = 0; p < spreads.size(); p++) {
+        Total total;
+        for (std::size_t i = 0; i < runs.size(); i++) total.add(result.sums[i][p], passes[i], batch);
+        spreads[p] = {total.coarse.variance(coarse), batch >= 4 ? total.fine.variance(fine) : dvec3(0)};
+        if (p >= result.skipped && result.pixels.size() < std::size_t(count) * size.x) result.pixels.push_back(total.pixel(passCount()));
     }
-    return pixels;
+    const std::vector<vec3> noise = noiseOf(spreads, {size.x, end - first}, passes);
+    for (std::size_t p = 0; p < result.pixels.size(); p++) result.pixels[p].noise = noise[result.skipped + p];
+    return result;
 }
 
 std::vector<Pixel> Film::download() const {

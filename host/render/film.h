@@ -8,6 +8,13 @@
 
 namespace vkpm {
 
+/// Some rows of a film: means, and the sums of each run that they are made of, with `skipped` pixels more at their beginning.
+struct FilmRows {
+    std::vector<Pixel> pixels;
+    std::vector<std::vector<PixelSum>> sums;
+    std::size_t skipped = 0;
+};
+
 /// Passes come in ascending order, or as runs that an earlier film had; the same passes give the same bits either way.
 class Film {
 public:
@@ -37,7 +44,8 @@ public:
     std::vector<PassRange> ranges() const;
 
     /// The means of all passes, and their noise (see render/noise.h); of some rows, from any thread.
-    std::vector<Pixel> pixels(uint firstRow, uint rows) const;
+    std::vector<Pixel> pixels(uint firstRow, uint rows) const { return this->rows(firstRow, rows).pixels; }
+    FilmRows rows(uint firstRow, uint count) const;
     std::vector<Pixel> download() const;
     /// Samples that were not finite, by layer.
     std::array<std::uint64_t, LAYER_COUNT> nonfinite() const;
