@@ -26,7 +26,7 @@ public:
     void begin();
     /// Throws InputError if what it reports about is a picture of another size.
     void requireSize(uvec2 size) const;
-    /// Begins anew after the view of the scene or the size of the settings have changed, or after Cancelled.
+    /// Begins anew after the view of the scene or the size of the settings have changed.
     void restart();
 
     /// Whether to stop: an end is reached, or the time is nearer now than after another pass.

@@ -8,6 +8,8 @@ import argparse
 import glob
 import html
 import json
+import os
+import random
 import shutil
 import sys
 import tempfile
@@ -35,6 +37,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", default="", metavar="WORDS", help="cases whose group and name have these words")
     parser.add_argument("--heavy", action="store_true", help="also those that take gigabytes or minutes")
     parser.add_argument("--driver", choices=("lanes4", "swiftshader"), help="on lavapipe with four lanes in place of eight, or on SwiftShader")
+    parser.add_argument("--draw", type=int, metavar="N", help="N of these cases, drawn by the number VKPM_DRAW_SEED (default 1)")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="renders N cases at a time; slow ones are timed again alone (default 1)")
     return parser.parse_args()
 
@@ -127,6 +130,9 @@ def main() -> int:
     cases = [case for case in CASES if (args.heavy or not case.heavy) and args.only in f"{case.group} {case.name}"]
     if not cases:
         sys.exit(f"tools/extremes: --only: no case has the words {args.only!r}; without it all are rendered")
+    if args.draw and args.draw < len(cases):
+        drawn = random.Random(int(os.environ.get("VKPM_DRAW_SEED", "1"))).sample(range(len(cases)), args.draw)
+        cases = [cases[index] for index in sorted(drawn)]
     if args.jobs == 1:
         verdicts = map(partial(judged, lab), cases)
     else:

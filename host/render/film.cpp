@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <tbb/parallel_for.h>
+#include <utility>
 
 namespace vkpm {
 namespace {
@@ -43,6 +44,16 @@ template <class Use> void forEachFloat(const Columns& film, Use use) {
 }
 
 const uint rowsAtOnce = 32;
+
+/// While it lives, no submission is cancelled.
+struct Uninterrupted {
+    explicit Uninterrupted(Gpu& device) : gpu(device), flag(std::exchange(gpu.cancel, nullptr)) {}
+    ~Uninterrupted() { gpu.cancel = flag; }
+    Uninterrupted(const Uninterrupted&) = delete;
+    Uninterrupted& operator=(const Uninterrupted&) = delete;
+    Gpu& gpu;
+    const std::atomic<bool>* flag;
+};
 
 /// Sums over runs of passes, in double precision.
 struct Total {
@@ -112,6 +123,7 @@ Film::Run& Film::append(PassRange passes) {
 
 void Film::begin(uint pass) {
     if (!runs.empty() && joins(runs.back().passes, {pass, pass + 1})) return;
+    const Uninterrupted here(gpu);
     Recording recording(gpu);
     recording.clear(append({pass, pass}).sums);
     recording.submit();
@@ -126,6 +138,7 @@ void Film::add(const Buffer<float>& samples, uint stride, uint first, uint sampl
 }
 
 void Film::end() {
+    const Uninterrupted here(gpu);
     runs.back().passes.end++;
     joinLast();
 }

@@ -21,7 +21,7 @@ public:
     /// A film has the columns that the features say, and takes samples that have them.
     Film(Gpu& gpu, uvec2 pixels, const Features& features = {});
 
-    /// Makes room for a pass, the one after the last.
+    /// Makes room for a pass, the one after the last. Neither this nor end() is ever cancelled.
     void begin(uint pass);
     /// Takes the pass's samples of pixels first .. first + count - 1; a column of the samples is `stride` long.
     void add(const Buffer<float>& samples, uint stride, uint first, uint count);

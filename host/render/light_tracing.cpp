@@ -9,8 +9,8 @@ LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Fea
       tracing(gpu, scene, features, MapKind::caustic, settings.causticPhotons, settings.seed, wave), sort(gpu), rays(gpu, "camera connections", 1),
       splat(gpu, "splat", features), collectKernel(gpu, "collect", features) {}
 
-void LightTracing::trace(uint pass) {
-    const PhotonLedger traced = tracing.trace(pass);
+PhotonLedger LightTracing::trace(uint pass) {
+    PhotonLedger traced = tracing.trace(pass);
     splatCount = static_cast<uint>(traced.stored);
     sort.reserve(splatCount);
     if (splats.size() < splatCount) {
@@ -24,8 +24,8 @@ void LightTracing::trace(uint pass) {
     recording.run(splat, splatCount, {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, photonFlux});
     sort.sort(recording, splatCount, static_cast<uint>(std::bit_width(size.x * size.y)));
     recording.submit();
-    ledger += traced;
-    ledger.rays += rays.read1();
+    traced.rays += rays.read1();
+    return traced;
 }
 
 void LightTracing::collect(const Buffer<float>& samples, uint stride, uint first, uint count) {

@@ -12,12 +12,12 @@ public:
     /// `flux` is that of all lights, W.
     LightTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, float flux, uint wave);
 
-    /// Traces the photons of a pass, and sorts what they add to pixels by pixel.
-    void trace(uint pass);
+    /// Traces the photons of a pass, and sorts what they add to pixels by pixel. Of what it returns rays are those to the camera as well.
+    PhotonLedger trace(uint pass);
     /// Fills the caustic columns of the samples, which are `stride` long, of pixels first .. first + count - 1.
     void collect(const Buffer<float>& samples, uint stride, uint first, uint count);
 
-    PhotonLedger ledger; // of all passes; rays are those to the camera as well
+    PhotonLedger ledger; // of all passes
 
 private:
     Gpu& gpu;

@@ -74,6 +74,7 @@ void Renderer::look(const View& view, uvec2 size) {
     if (resized) constructCamera();
     film = Film(gpu, size, sceneHas);
     cameraRays = {};
+    taken.reset();
     for (std::optional<MapStages>* stages : {&global, &caustic})
         if (*stages) (*stages)->ledger = {}, (*stages)->forget();
     if (light) light->ledger = {};
@@ -172,14 +173,14 @@ void MapStages::forget() {
     guide.reset();
 }
 
-void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
+/// Returns what became of the photons that the map needed.
+PhotonLedger Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     // Looking at a map means looking at one map: that of the first pass.
     const bool still = settings.integrator == INTEGRATOR_PHOTON_MAP;
-    if (!stages || (still && stages->ledger.emitted > 0)) return;
+    if (!stages || (still && stages->ledger.emitted > 0)) return {};
     if (still) pass = 0;
     const PhotonLedger ledger = stages->tracing.trace(pass);
-    stages->ledger += ledger;
-    if (stages->built == pass) return;
+    if (stages->built == pass) return ledger;
     stages->built.reset(); // until it is done
     const float factor = radiusFactor(pass, settings.alpha);
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
@@ -191,27 +192,32 @@ void Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     stages->map.nearest = settings.nearest;
     if (stages->field) stages->field->apply(stages->map);
     stages->built = pass;
+    return ledger;
 }
 
 void Renderer::renderPass(uint pass) {
     guidePhotons();
-    buildMap(global, pass);
-    buildMap(caustic, pass);
-    if (light) light->trace(pass);
+    const PhotonLedger ofGlobal = buildMap(global, pass), ofCaustic = buildMap(caustic, pass);
+    const PhotonLedger ofLight = light ? light->trace(pass) : PhotonLedger{};
     const float nearDistance = global ? nearRadii * global->typicalRadius() * radiusFactor(pass, settings.alpha) : 0;
     const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}, nearDistance};
 
     const uint pixels = settings.size.x * settings.size.y;
-    film.begin(pass);
-    for (uint first = 0; first < pixels; first += camera->capacity()) {
-        const uint count = std::min(camera->capacity(), pixels - first);
+    if (!taken) film.begin(pass), taken = 0;
+    while (*taken < pixels) {
+        const uint first = *taken, count = std::min(camera->capacity(), pixels - first);
         const RayCounts rays = camera->trace(pass, first, count, maps);
         if (light) light->collect(camera->samples, camera->capacity(), first, count);
         film.add(camera->samples, camera->capacity(), first, count);
         cameraRays.paths += rays.paths;
         cameraRays.shadow += rays.shadow;
+        *taken += count;
     }
     film.end();
+    taken.reset();
+    if (global) global->ledger += ofGlobal;
+    if (caustic) caustic->ledger += ofCaustic;
+    if (light) light->ledger += ofLight;
     if (sceneHas.checksFeatures) scene.requireNothingMissing();
 }
 

@@ -52,10 +52,10 @@ public:
     /// With other features than sceneFeatures(scene, settings), for tests.
     Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, const Features& features, WaveSizes waves = {});
 
-    /// Renders the pass of an index, the one after the film's last.
+    /// Renders the pass of an index, the one after the film's last. After Cancelled it goes on where that pass was left.
     void renderPass(uint pass);
 
-    /// Begins anew with another view and size; photon maps do not depend on these and stay. Also after Cancelled.
+    /// Begins anew with another view and size; photon maps do not depend on these and stay; a pass under way is forgotten.
     void look(const View& view, uvec2 size);
 
     RayCounts rays() const { return cameraRays; }
@@ -72,7 +72,7 @@ private:
     void measureRadii(MapStages& stages);
     void guidePhotons();
     void constructCamera();
-    void buildMap(std::optional<MapStages>& stages, uint pass);
+    PhotonLedger buildMap(std::optional<MapStages>& stages, uint pass);
 
     Gpu& gpu;
     Settings settings;
@@ -90,6 +90,7 @@ private:
     std::optional<LightTracing> light;
     std::optional<CameraPaths> camera;
     RayCounts cameraRays;
+    std::optional<uint> taken; // pixels of the pass under way that the film has
 
 public:
     Film film;

@@ -70,7 +70,11 @@ void RenderThread::run() {
     giveWay();
     try {
         while (step()) continue;
-        if (session && session->job && !broken && !discards()) savedAtEnd = session->job->finish();
+        if (session && session->job && !discards()) {
+            RenderJob& job = *session->job;
+            if (midPass && job.passCount() > 0) job.renderPass();
+            savedAtEnd = job.finish();
+        }
     } catch (...) {
         failure = std::current_exception();
     }
@@ -106,12 +110,12 @@ bool RenderThread::step() {
         if (!gpu) openDevice();
         if (!session->draft) return drawDraft(wish), true; // something to look at before the first pass
         if (!follow(wish)) return true;
-        RenderJob& job = *session->job;
-        if (saved != wish.saves && job.passCount() > 0) save(wish.saves);
-        if (!job.done() && (!wish.paused || job.passCount() == 0)) advance();
+        const RenderJob& job = *session->job;
+        if (!saveIfAsked(wish)) return true;
+        if ((midPass || (!job.done() && (!wish.paused || job.passCount() == 0))) && !advance()) return true;
         tell(wish);
     } catch (const Cancelled&) {
-        broken = true;
+        midPass = true;
         hasWork = true;
         endLastPass();
     } catch (const std::exception& error) { // of the device, or of a scene or settings that load but cannot be rendered
@@ -176,6 +180,7 @@ void RenderThread::adopt(std::unique_ptr<Session> next) {
     own.sceneView = session->loadedView;
     hasWork = true;
     halted = false;
+    midPass = false;
     if (session->job) begin();
     else report("preparing");
     const std::lock_guard lock(mutex);
@@ -213,7 +218,7 @@ void RenderThread::begin() {
 void RenderThread::beginAnew() {
     own.settings = session->settings;
     own.errors.clear();
-    broken = false;
+    midPass = false;
     published = 0;
     nextEstimate = 2;
     report("rendering");
@@ -240,7 +245,7 @@ bool RenderThread::follow(const Wishes& wish) {
     if (!session->job) {
         construct(*session);
         begin();
-    } else if (looks || resized || broken) {
+    } else if (looks || resized) {
         session->job->restart();
         beginAnew();
     }
@@ -281,6 +286,7 @@ void RenderThread::startOver(const Wishes& wish) {
     }
     view = before;
     endLastPass();
+    if (halted) saveIfAsked(wish);
 }
 
 /// The scene's text takes the camera, so that a file says what it is a picture of.
@@ -321,11 +327,22 @@ void RenderThread::endLastPass() {
     cancel = false;
 }
 
-void RenderThread::advance() {
-    if (!interruptible(true)) return;
+/// Renders a pass, or what is left of one; false if there is a new wish.
+bool RenderThread::advance() {
+    if (!interruptible(true)) return false;
     onInterrupt("interrupted: closing the window; finished passes are saved; once more stops at once", false);
     session->job->renderPass();
+    midPass = false;
     endLastPass();
+    return true;
+}
+
+/// Saves the passes that there are, if it is wished; false if there is a new wish.
+bool RenderThread::saveIfAsked(const Wishes& wish) {
+    if (saved == wish.saves || session->job->passCount() == 0) return true;
+    if (midPass && !advance()) return false;
+    save(wish.saves);
+    return true;
 }
 
 } // namespace vkpm

@@ -73,7 +73,8 @@ private:
     bool fits(uvec2 size);
     void takeView(const Wishes& wish, Session& taken);
     void drawDraft(const Wishes& wish);
-    void advance();
+    bool advance();
+    bool saveIfAsked(const Wishes& wish);
     bool interruptible(bool allowed);
     void endLastPass();
     void publish();
@@ -109,7 +110,7 @@ private:
     std::optional<uvec2> refusedSize; // of a film
     bool refused = false;             // settings
     bool resumed = false;   // what the output held was taken up
-    bool broken = false;    // the job's film is of no use
+    bool midPass = false;   // the job's film has part of a pass that was left
     bool failed = false;    // the problem is the device's
     bool halted = false;    // nothing to render until a wish changes
     bool hasWork = true;    // without a wish

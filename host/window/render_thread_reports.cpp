@@ -61,7 +61,7 @@ void RenderThread::save(uint saves) {
 
 void RenderThread::report(const char* activity) {
     own.activity = activity;
-    if (session && session->job && !broken) {
+    if (session && session->job) {
         const RenderJob* job = &*session->job;
         own.passes = job->passCount();
         own.passesWanted = job->passesWanted().end == NONE ? NONE : length(job->passesWanted());
@@ -90,6 +90,7 @@ void RenderThread::recover(const std::exception& error) {
     endLastPass();
     log.write("failed", {{"cause", error.what()}});
     session->job.reset();
+    midPass = false;
     session->draft.reset();
     const bool lost = dynamic_cast<const DeviceLost*>(&error) != nullptr;
     if (lost) gpu.reset();
