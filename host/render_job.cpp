@@ -20,10 +20,11 @@ PhotonCounts countsOf(const PhotonLedger& l) {
     return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
 }
 
-std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given) {
+std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given, double unit) {
     if (!stages) return {};
-    if (!stages->field) return GatherRadii{stages->radius, stages->radius, stages->radius, given};
-    const auto radius = [&](float logarithm) { return stages->radius * std::exp2(logarithm); };
+    const float widest = static_cast<float>(unit * double{stages->radius});
+    if (!stages->field) return GatherRadii{widest, widest, widest, given};
+    const auto radius = [&](float logarithm) { return widest * std::exp2(logarithm); };
     return GatherRadii{radius(stages->field->smallest), radius(stages->field->median), radius(stages->field->greatest), given};
 }
 
@@ -63,9 +64,9 @@ std::uint64_t RenderJob::photons() const {
     return renderer.photons(MapKind::global).emitted + renderer.photons(MapKind::caustic).emitted;
 }
 
-std::optional<GatherRadii> RenderJob::globalRadii() const { return radiiOf(renderer.globalMap(), settings.radius.has_value()); }
+std::optional<GatherRadii> RenderJob::globalRadii() const { return radiiOf(renderer.globalMap(), settings.radius.has_value(), scene.coordinates.unit); }
 
-std::optional<GatherRadii> RenderJob::causticRadii() const { return radiiOf(renderer.causticMap(), settings.causticRadius.has_value()); }
+std::optional<GatherRadii> RenderJob::causticRadii() const { return radiiOf(renderer.causticMap(), settings.causticRadius.has_value(), scene.coordinates.unit); }
 
 std::uint64_t RenderJob::nonfinite() const {
     std::uint64_t count = earlierNonfinite;

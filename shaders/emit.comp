@@ -1,5 +1,5 @@
 // Starts photons on the lights: over the hemisphere or, of far lights, aimed at the scene; for the caustic map, aimed at the bounding
-// spheres of specular shapes.
+// spheres of specular shapes. Those of lights that are remote start where they enter the scene, if no other far light hides them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -10,6 +10,9 @@
 #include "light.glsl"
 #include "features.glsl"
 #include "targets.glsl"
+#include "sphere.glsl"
+#include "intersect.glsl"
+#include "traverse.glsl"
 #include "guide.glsl"
 
 ARGS(EmitArgs)
@@ -31,15 +34,22 @@ void main() {
     if (isTwoSided(light) && numbers[START_SIDE] < 0.5) point.normal = -point.normal;
 
     // A direction, and the weight that makes up for a density other than cos / pi.
-    vec3 direction;
     vec2 u = vec2(numbers[START_DIRECTION], numbers[START_DIRECTION + 1u]);
-    float weight = args.caustic != 0u ? aimAtTargets(scene, point, u, numbers[START_TARGET], direction) : aimAtLit(scene, point, u, direction);
+    Aim aim;
+    if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[START_TARGET]);
+    else aim = aimAtLit(scene, point, u);
+    vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
+    if (aim.remote) {
+        vec3 entered = entrance(scene.near, aim);
+        if (hasFarLights > 1u && aim.weight > 0.0 && occluded(scene, entered, origin, NONE)) aim.weight = 0.0;
+        origin = entered;
+    }
+    float weight = aim.weight;
     if (hasGuide != 0u && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
     weight *= sparse;
 
     vec3 color = light.radiance / luminance(light.radiance) * weight;
-    vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
-    args.paths.at[slot] = Path(origin, direction, color, 0.0, NONE, 0u);
+    args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;
     args.flags.at[slot] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;

@@ -23,6 +23,13 @@ float maxComponent(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
+// The direction of u x v. Scaled by a power of two first, which changes no bit, the squares of edges of any length stay numbers.
+vec3 directionOfCross(vec3 u, vec3 v) {
+    float longest = maxComponent(max(abs(u), abs(v)));
+    float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u));
+    return normalize(cross(scale * u, scale * v));
+}
+
 // Of linear Rec. 709.
 float luminance(vec3 color) {
     return dot(color, vec3(0.2126, 0.7152, 0.0722));

@@ -41,7 +41,7 @@ bool isTwoSided(Light light) {
 LightPoint flatLightAt(Light light, vec2 place) {
     // A shadow ray may hit a triangle of the light anywhere along it, so all components of its place count.
     vec3 magnitude = vec3(maxComponent(abs(light.a) + abs(light.a + light.u) + abs(light.a + light.v)));
-    return LightPoint(light.a + place.x * light.u + place.y * light.v, magnitude, normalize(cross(light.u, light.v)));
+    return LightPoint(light.a + place.x * light.u + place.y * light.v, magnitude, directionOfCross(light.u, light.v));
 }
 
 // A point of a light, uniform over area.

@@ -150,7 +150,7 @@ uint shade(uint slot) {
         if (hasAlbedo != 0u) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal != 0u) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
         if (hasDepth != 0u) {
-            args.samples.at[COLUMN_DEPTH * args.stride + slot] = hit.t * dot(path.direction, scene.camera.forward);
+            args.samples.at[COLUMN_DEPTH * args.stride + slot] = scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
             args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
         }
     }

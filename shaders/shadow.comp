@@ -4,6 +4,7 @@
 #include "kernel.glsl"
 #include "sphere.glsl"
 #include "intersect.glsl"
+#include "offset.glsl"
 #include "traverse.glsl"
 #include "columns.glsl"
 

@@ -1,7 +1,7 @@
 // What C++ and GLSL both read: buffer structs, one Args struct per kernel, and the list of features.
 //
 // Every struct has scalar layout: the same bytes in both languages, no padding, no second copy.
-// Lengths are in world units, directions are of unit length, radiance is in W/(m^2 sr), flux in W.
+// Lengths are in the units of the scene (DeviceScene.unit), directions are of unit length, radiance is in W/(m^2 sr), flux in W.
 
 #ifdef __cplusplus
 #pragma once
@@ -79,7 +79,7 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(29, hasDiffuse, 1)                                                                                               \
     X(30, hasBias, 1)                                                                                                  \
     X(31, checksFeatures, 0) /* kernels report what they meet and are without, see features.glsl */                    \
-    X(32, hasFarLights, 1)                                                                                             \
+    X(32, hasFarLights, 2) /* 1: only one, that none hides */                                                          \
     X(33, hasGuide, 1)
 
 #ifdef __cplusplus
@@ -217,10 +217,12 @@ struct DeviceScene {
     ADDRESS(float) directCdf; // of light samples, likewise
     ADDRESS(Target) targets;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit; // about all that light falls upon
+    Target lit;  // about all that light falls upon
+    Target near; // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;
+    float unit; // of lengths, in world units: a power of two
     Camera camera;
 };
 BUFFER(DeviceScene)
@@ -471,7 +473,7 @@ struct PhotonMap {
     float cellsPerUnit; // of the widest cells
     uint cellMask;
     uint levels;  // how often a cell is split into eight
-    float radius; // the greatest, world units
+    float radius; // the greatest
     float shrink; // gather within this part of the distance of the k-th nearest
     float photonFlux; // W per photon emitted
     float fieldPerUnit;

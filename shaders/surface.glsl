@@ -16,7 +16,7 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     vec3 a = first * p.a;
     vec3 b = weights.x * p.b;
     vec3 c = weights.y * p.c;
-    vec3 normal = normalize(cross(p.b - p.a, p.c - p.a));
+    vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
     vec3 shading = normal;
     if (hasSmoothNormals != 0u && p.normals != NONE) {
         Normals n = NormalsPtr(scene.normals).at[p.normals];

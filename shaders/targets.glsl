@@ -8,53 +8,89 @@ float targetSolidAngle(Target target, vec3 point) {
     return 2.0 * PI * coneHeight(target.radius, distance2);
 }
 
+// A photon's way from a light: its direction, and a point of it by which it is known, `anchor`: the point of the light or, where that
+// is so far away that its rounding would count, one next to what the photon is aimed at.
+struct Aim {
+    vec3 anchor;
+    vec3 direction;
+    float weight; // the cosine law over the density with which the direction was chosen
+    bool remote;  // whether the anchor is not the point of the light
+};
+
 // Density over solid angle with which a target sends a direction, times its solid angle; a direction that was
 // sampled from the target is within its cone, whatever rounding says.
-float targetDensity(Target target, LightPoint point, vec3 direction, bool sampled) {
+float targetDensity(Target target, LightPoint point, Aim aim, bool sampled) {
     vec3 d = target.center - point.position;
     float distance2 = dot(d, d);
-    if (distance2 <= target.radius * target.radius) return 2.0 * max(0.0, dot(direction, point.normal));
-    vec3 across = cross(d, direction);
-    return sampled || (dot(d, direction) > 0.0 && dot(across, across) <= target.radius * target.radius) ? 1.0 : 0.0;
+    if (distance2 <= target.radius * target.radius) return 2.0 * max(0.0, dot(aim.direction, point.normal));
+    vec3 f = target.center - aim.anchor;
+    if (dot(f, f) > distance2) f = d;
+    vec3 across = cross(f, aim.direction);
+    return sampled || (dot(d, aim.direction) > 0.0 && dot(across, across) <= target.radius * target.radius) ? 1.0 : 0.0;
 }
 
-vec3 sampleTarget(Target target, LightPoint point, vec2 u) {
+// Lights that are farther than this many radii of a target, and than two of all but far lights, are remote from it: at 32 a place
+// on the target is rounded to 2e-6 of its size.
+const float REMOTE = 32.0;
+
+bool isRemote(DeviceScene scene, Target target, vec3 point, float distance2) {
+    if (hasFarLights == 0u) return false;
+    vec3 d = scene.near.center - point;
+    return distance2 > REMOTE * REMOTE * target.radius * target.radius && dot(d, d) > 4.0 * scene.near.radius * scene.near.radius;
+}
+
+// A direction uniform over the cone that a target fills. Of a remote light the anchor is the point of the way that is next to the
+// target's centre.
+Aim aimInCone(DeviceScene scene, Target target, vec3 point, vec3 d, float distance2, vec2 u) {
+    vec3 cone = uniformCone(u, coneHeight(target.radius, distance2));
+    vec3 axis = d * inversesqrt(distance2);
+    Aim aim = Aim(point, toWorld(cone, axis), 1.0, isRemote(scene, target, point, distance2));
+    if (aim.remote) aim.anchor = target.center + toWorld(sqrt(distance2) * vec3(cone.xy * cone.z, -dot(cone.xy, cone.xy)), axis);
+    return aim;
+}
+
+// Where a remote photon enters the sphere about all but far lights, or where it passes that by.
+vec3 entrance(Target sphere, Aim aim) {
+    vec3 f = aim.anchor - sphere.center;
+    float along = dot(f, aim.direction);
+    vec3 across = f - along * aim.direction;
+    return aim.anchor - (along + sqrt(max(0.0, sphere.radius * sphere.radius - dot(across, across)))) * aim.direction;
+}
+
+Aim aimAtTarget(DeviceScene scene, Target target, LightPoint point, vec2 u) {
     vec3 d = target.center - point.position;
     float distance2 = dot(d, d);
-    if (distance2 <= target.radius * target.radius) return toWorld(cosineHemisphere(u), point.normal);
-    return toWorld(uniformCone(u, coneHeight(target.radius, distance2)), d * inversesqrt(distance2));
+    if (distance2 <= target.radius * target.radius) return Aim(point.position, toWorld(cosineHemisphere(u), point.normal), 1.0, false);
+    return aimInCone(scene, target, point.position, d, distance2, u);
 }
 
-// A direction of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform over
-// the cone of all that light falls upon. The weight is the cosine law over that density, 0 below the horizon.
-float aimAtLit(DeviceScene scene, LightPoint point, vec2 u, out vec3 direction) {
+// The way of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform over the cone
+// of all that light falls upon. The weight is 0 below the horizon.
+Aim aimAtLit(DeviceScene scene, LightPoint point, vec2 u) {
     vec3 d = scene.lit.center - point.position;
     float distance2 = dot(d, d);
     bool far = distance2 > 4.0 * scene.lit.radius * scene.lit.radius;
     if (checksFeatures != 0u) require(scene, far, hasFarLights, id_hasFarLights);
-    if (hasFarLights == 0u || !far) {
-        direction = toWorld(cosineHemisphere(u), point.normal);
-        return 1.0;
-    }
-    float height = coneHeight(scene.lit.radius, distance2);
-    direction = toWorld(uniformCone(u, height), d * inversesqrt(distance2));
-    return 2.0 * height * max(0.0, dot(direction, point.normal));
+    if (hasFarLights == 0u || !far) return Aim(point.position, toWorld(cosineHemisphere(u), point.normal), 1.0, false);
+    Aim aim = aimInCone(scene, scene.lit, point.position, d, distance2, u);
+    aim.weight = 2.0 * coneHeight(scene.lit.radius, distance2) * max(0.0, dot(aim.direction, point.normal));
+    return aim;
 }
 
-// Chooses a target in proportion to its solid angle and a direction within it. The weight is the cosine law over the
-// density of the mixture, so a direction covered by several targets counts once; 0 if it is below the horizon.
-float aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice, out vec3 direction) {
-    direction = point.normal;
-    if (scene.targetCount == 0u) return 0.0;
+// Chooses a target in proportion to its solid angle and a direction within it. The density is that of the mixture, so a direction
+// covered by several targets counts once; the weight is 0 if it is below the horizon.
+Aim aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice) {
+    if (scene.targetCount == 0u) return Aim(point.position, point.normal, 0.0, false);
     float total = 0.0;
     for (uint i = 0u; i < scene.targetCount; i++) total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
     uint chosen = 0u;
     float left = choice * total - targetSolidAngle(TargetPtr(scene.targets).at[0], point.position);
     while (left >= 0.0 && chosen + 1u < scene.targetCount) left -= targetSolidAngle(TargetPtr(scene.targets).at[++chosen], point.position);
 
-    direction = sampleTarget(TargetPtr(scene.targets).at[chosen], point, u);
+    Aim aim = aimAtTarget(scene, TargetPtr(scene.targets).at[chosen], point, u);
     float density = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++) density += targetDensity(TargetPtr(scene.targets).at[i], point, direction, i == chosen);
-    float cosine = dot(direction, point.normal);
-    return cosine > 0.0 ? cosine / PI * total / density : 0.0;
+    for (uint i = 0u; i < scene.targetCount; i++) density += targetDensity(TargetPtr(scene.targets).at[i], point, aim, i == chosen);
+    float cosine = dot(aim.direction, point.normal);
+    aim.weight = cosine > 0.0 ? cosine / PI * total / density : 0.0;
+    return aim;
 }

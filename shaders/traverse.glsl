@@ -1,8 +1,33 @@
-// The closest hit, or any hit, of a ray with the scene; needs intersect.glsl.
+// The closest hit, or any hit, of a ray with the scene; needs intersect.glsl and offset.glsl.
+
+// Where glass touches something opaque both faces are at the same place but for rounding, and a ray that went through the glass
+// first would start behind the other. So an opaque triangle hides the glass triangles before it that are within the roundings by which
+// rays are offset, and those of the ray, and a ray that leaves something opaque does not hit them: whatever the order of shapes, what
+// stands on the floor is in contact with it. Nearest hits are found for either kind.
+struct Contact {
+    Hit glass;
+    float slack; // how much farther along the ray an opaque triangle still hides `glass`
+};
+
+bool canTouch() {
+    return hasGlass != 0u && hasTriangles != 0u && (hasDiffuse != 0u || hasMirror != 0u);
+}
+
+bool isGlass(DeviceScene scene, uint id) {
+    return MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind == MATERIAL_GLASS;
+}
+
+float slackOf(DeviceScene scene, Ray ray, uint id) {
+    Primitive p = PrimitivePtr(scene.primitives).at[id];
+    vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
+    vec3 magnitude = abs(p.a) + abs(p.b) + abs(p.c) + abs(ray.origin);
+    const float roundings = 4.7683716e-7; // 2^-21 of the greatest coordinate, where that along the normal is 0
+    return (2.0 * roundingAlong(magnitude, normal) + roundings * maxComponent(magnitude)) / max(abs(dot(ray.direction, normal)), 1e-30);
+}
 
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
-void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit hit) {
+void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit, inout Contact contact) {
     uint id = LeafPtr(scene.leaves).at[slot].id;
     vec2 weights = vec2(0.0);
     float t;
@@ -18,7 +43,18 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, inout Hit h
         vec3 c = vec3(leaves.at[slot].c[i.x], leaves.at[slot].c[i.y], leaves.at[slot].c[i.z]);
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
-    if (t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive))) hit = Hit(t, id, weights);
+    if (!(t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive)))) return;
+    if (any || !canTouch() || id >= scene.triangleCount || !isGlass(scene, id)) {
+        hit = Hit(t, id, weights);
+    } else if (t < contact.glass.t || (t == contact.glass.t && id < contact.glass.primitive)) {
+        float slack = slackOf(scene, ray, id);
+        if (t > slack || from == NONE || isGlass(scene, from)) contact = Contact(Hit(t, id, weights), slack);
+    }
+}
+
+// How far a ray has to be looked along.
+float reach(Hit hit, Contact contact) {
+    return canTouch() ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
 }
 
 // Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
@@ -31,12 +67,13 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
     uint held = 0u; // how many are in registers
     uint node = 0u;
     Hit hit = Hit(tMax, NONE, vec2(0.0));
+    Contact contact = Contact(Hit(INFINITY, NONE, vec2(0.0)), 0.0);
     NodePtr nodes = NodePtr(scene.nodes);
     while (true) {
         bool finished = false; // with this subtree
         if ((node & LEAF) == 0u) {
-            float left = intersectBox(ray, nodes.at[node].leftLow, nodes.at[node].leftHigh, hit.t);
-            float right = intersectBox(ray, nodes.at[node].rightLow, nodes.at[node].rightHigh, hit.t);
+            float left = intersectBox(ray, nodes.at[node].leftLow, nodes.at[node].leftHigh, reach(hit, contact));
+            float right = intersectBox(ray, nodes.at[node].rightLow, nodes.at[node].rightHigh, reach(hit, contact));
             uint leftChild = nodes.at[node].left;
             uint rightChild = nodes.at[node].right;
             bool swap = right < left;
@@ -58,7 +95,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
         }
         // One primitive of a leaf at a time: for lanes that diverge a loop of its own costs more than it saves.
         if (!finished && (node & LEAF) != 0u) {
-            intersectLeaf(scene, ray, from, node & LEAF_FIRST, hit);
+            intersectLeaf(scene, ray, from, node & LEAF_FIRST, any, hit, contact);
             if (any && hit.primitive != NONE) break;
             if ((node & ~LEAF) >> LEAF_SHIFT != 0u) node += 1u - (1u << LEAF_SHIFT);
             else finished = true;
@@ -76,6 +113,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
             held--;
         }
     }
+    if (!any && canTouch() && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
     return hit;
 }
 

@@ -18,12 +18,18 @@ constexpr uint largestCount = rayCount / 20; // of differences; rays aimed at ed
 
 // ---- The kernels --------------------------------------------------------------------------------
 
+/// The nearest surface by geometry alone: what touches glass does not hide it.
+Features withoutContact(const Scene& scene) {
+    Features features = sceneFeatures(scene, scene.settings);
+    features.hasGlass = 0;
+    return features;
+}
+
 /// A scene on the device, and queries through the kernels of a render.
 class Device {
 public:
     explicit Device(const Scene& scene)
-        : uploaded(gpu, scene, Settings{.size = {16, 16}}), trace(gpu, "trace", sceneFeatures(scene, scene.settings)),
-          shadow(gpu, "shadow", sceneFeatures(scene, scene.settings)) {}
+        : uploaded(gpu, scene, Settings{.size = {16, 16}}), trace(gpu, "trace", withoutContact(scene)), shadow(gpu, "shadow", withoutContact(scene)) {}
 
     std::vector<Hit> closest(std::span<const TestRay> rays) {
         std::vector<Path> started;

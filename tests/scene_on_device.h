@@ -7,7 +7,7 @@
 
 namespace vkpm {
 
-/// A scene of triangles and then spheres, without materials.
+/// A scene of triangles and then spheres, of one material.
 inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
     Scene scene;
     const Bvh bvh = buildBvh(primitives, triangleCount);
@@ -16,6 +16,7 @@ inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
     scene.stackSize = bvh.stackSize;
     scene.primitives = std::move(primitives);
     scene.triangleCount = triangleCount;
+    scene.materials.push_back({MATERIAL_DIFFUSE, vec3{0.5f}, 1});
     return scene;
 }
 

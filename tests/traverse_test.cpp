@@ -1,6 +1,7 @@
 /// Traversal: closed meshes let no ray slip through, and hits equal those of a search through all primitives.
 #include "judge.h"
 #include "scene_on_device.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -191,6 +192,51 @@ TEST(Traverse, TiesGoToTheLowerPrimitive) {
                                uploaded.context());
     for (const Hit& hit : hits) EXPECT_EQ(hit.primitive, 0u);
     EXPECT_EQ(hits[1].t, 0.5f);
+}
+
+// A square at a height over a tilted plane, halved along one of its diagonals.
+std::vector<Primitive> square(float side, float height, bool otherDiagonal, uint material) {
+    const vec3 n = glm::normalize(vec3{0.2f, 0.9f, -0.3f}), t = glm::normalize(glm::cross(n, vec3{1, 0, 0})), b = glm::cross(n, t), middle = vec3{3, -2, 5} + height * n;
+    std::array<vec3, 4> c{middle - side * (t + b), middle + side * (t - b), middle + side * (t + b), middle - side * (t - b)};
+    if (otherDiagonal) std::ranges::rotate(c, c.begin() + 1);
+    return {{c[0], c[1], c[2], material, NONE, NONE}, {c[0], c[2], c[3], material, NONE, NONE}};
+}
+
+// Whichever comes first in the scene, rays from either side hit the opaque one of two faces at one place, and what leaves it does not
+// hit the glass.
+TEST(Traverse, OpaqueFacesHideTheGlassThatTouchesThem) {
+    Random random(8);
+    const uint opaque = 0, glass = 1;
+    for (const bool glassFirst : {false, true})
+        for (const float height : {0.0f, 1e-7f, -1e-6f, 1e-2f}) {
+            auto mesh = square(1, 0, false, opaque);
+            const auto cover = square(1.7f, height, true, glass);
+            mesh.insert(glassFirst ? mesh.begin() : mesh.end(), cover.begin(), cover.end());
+            Scene scene = sceneOf(mesh, 4);
+            scene.materials.push_back({MATERIAL_GLASS, vec3{1}, 1.5f});
+            const TestScene uploaded(scene);
+            const vec3 n = glm::normalize(vec3{0.2f, 0.9f, -0.3f});
+            const uint opaqueId = glassFirst ? 2 : 0;
+            std::vector<StartCase> toward, away;
+            for (int i = 0; i < 20'000; i++) {
+                const Primitive& p = mesh[opaqueId + i % 2];
+                const vec2 u = random.unit2();
+                const float s = std::sqrt(u.x);
+                const vec3 place = (1 - s) * p.a + s * (1 - u.y) * p.b + s * u.y * p.c;
+                vec3 w = random.direction();
+                if (glm::dot(w, n) < 0) w = -w;
+                if (glm::dot(w, n) < 0.02f) continue; // or they pass the cover by
+                toward.push_back({place + 2.0f * w, -w, NONE});
+                away.push_back({place, w, opaqueId + i % 2});
+            }
+            const auto found = map<Hit>("closest_from", toward, {.stackSize = scene.stackSize}, uploaded.context());
+            const auto left = map<Hit>("closest_from", away, {.stackSize = scene.stackSize}, uploaded.context());
+            const bool touches = height < 1e-3f;
+            for (std::size_t i = 0; i < found.size(); i++) {
+                ASSERT_EQ(mesh[found[i].primitive].material, touches ? opaque : glass) << height << " " << i;
+                if (touches) ASSERT_EQ(left[i].primitive, NONE) << height << " " << i;
+            }
+        }
 }
 
 } // namespace

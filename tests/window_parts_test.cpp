@@ -82,7 +82,7 @@ Scene farScene(const fs::path& file) {
     std::ofstream(file) << R"({"camera": {"origin": [2000000.5, 0, 7], "target": [2000000, 1, 0]}, "materials": {"m": {"type": "diffuse", "albedo": 1}},
         "shapes": [{"type": "sphere", "center": [2000000, 0, -300000], "radius": 1, "emission": 1, "material": "m"}]})";
     const Scene scene = loadScene(file);
-    EXPECT_NE(scene.origin.x, 0);
+    EXPECT_NE(scene.coordinates.origin.x, 0);
     return scene;
 }
 
@@ -96,7 +96,7 @@ TEST(CameraJson, IsReadBackBitForBit) {
         if (i == 100) scene = farScene(file);
         View view{{number(random), number(random), number(random) * 1e-6f}, {number(random) * 1e5f, number(random), number(random)}, {0, 0, 1}, 0};
         view.fieldOfView = glm::radians(60 + 15 * number(random));
-        view.base = scene.view.base;
+        view.coordinates = scene.view.coordinates;
         view = inWorldDigits(view);
         std::ofstream(file) << withCamera(scene.text, view);
         EXPECT_TRUE(loadScene(file).view == view) << cameraJson(view);

@@ -45,6 +45,34 @@ def sun(lab: Lab) -> Verdict:
     return against_path(lab, plus(room, lamp), 0.02, layers=("direct", "indirect"))
 
 
+def far_sun(room: Scene, distance: float) -> Scene:
+    """The room below a sun of the usual angle, at so many sizes of the room."""
+    lamp = sphere([0.18 * distance, 0.9 * distance, 0.36 * distance], 0.0046 * distance, emission=[17000, 12000, 4000])
+    return plus(without(room, LAMP, "ceiling"), lamp)
+
+
+def by_far_sun(distance: float) -> None:
+    """A sun as far as is allowed, whose photons a float at its place could not aim."""
+    @case("light", f"a sun at {distance:g} of the open room", "each layer as of a sun of the same angle at 1000, within 0.5 %")
+    def judge(lab: Lab) -> Verdict:
+        tame, render = (lab.render(far_sun(BOX, far), "--passes", "16") for far in (1000, distance))
+        return Verdict(render, tame, *same_means(render, tame, 0.005))
+
+
+for far_away in (1e6, 9e11):
+    by_far_sun(far_away)
+
+
+@case("light", "a far rectangle in place of the sun, and a second far lamp that hides half of it",
+      "direct and indirect light of the path tracer, within 2 %")
+def far_eclipse(lab: Lab) -> Verdict:
+    def at(far: float, side: float, x: float, **rest: object) -> dict:
+        return rectangle([x * side, far, -side / 2], [side, 0, 0], [0, 0, side], **rest)
+    sun, moon = at(1e9, 2e7, -0.5, emission=[17000, 12000, 4000]), at(5e8, 1e7, 0, emission=[1, 1, 1])
+    room = without(BOX, LAMP, "ceiling", "mirror ball", "glass ball")
+    return against_path(lab, plus(room, sun, moon), 0.02, layers=("direct", "indirect"))
+
+
 @case("light", "the whole ceiling shines", "each layer's mean of the path tracer within 2 %")
 def whole_ceiling(lab: Lab) -> Verdict:
     ceiling = rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], emission=[1, 1, 1], material="white")
@@ -203,6 +231,30 @@ def touching(lab: Lab) -> Verdict:
         return [rectangle(*face, material="glass") for face in faces]
     scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25), inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
     return against_path(lab, scene, 0.02, passes="512")
+
+
+def plate_on_floor(gap: float, first: bool) -> Scene:
+    """A glass plate over most of the box's floor, before or after all other shapes."""
+    low, high, side = -1 + gap, -0.8, 0.9
+    a, ex, ez, ey = [-side, low, -side], [2 * side, 0, 0], [0, 0, 2 * side], [0, high - low, 0]
+    faces = [(a, ex, ez), ([-side, high, side], ex, [0, 0, -2 * side]), (a, ey, ex), ([-side, low, side], ex, ey), (a, ez, ey),
+             ([side, low, -side], ey, ez)]
+    plate = [rectangle(*face, material="glass") for face in faces]
+    rest = without(BOX, "glass ball", "mirror ball")
+    return changed(rest, shapes=[*plate, *rest["shapes"]] if first else [*rest["shapes"], *plate])
+
+
+def by_contact(first: bool, gap: float) -> None:
+    """One face in common, or nearly, in either order."""
+    where = f"{gap:g} above the floor" if gap else "on the floor"
+    @case("matter", f"a glass plate {where}, {'first' if first else 'last'} of the shapes", "each layer as of one sunk by 10^-3, within 0.5 %")
+    def judge(lab: Lab) -> Verdict:
+        tame, render = lab.render(plate_on_floor(-1e-3, False), "--passes", "16"), lab.render(plate_on_floor(gap, first), "--passes", "16")
+        return Verdict(render, tame, *same_means(render, tame, 0.005))
+
+
+for is_first, above in ((True, 0), (False, 0), (False, 1e-7)):
+    by_contact(is_first, above)
 
 
 @case("matter", "mirrors of reflectance 1 face each other", "mean of the path tracer within 2 %, no hang")

@@ -10,7 +10,7 @@ namespace vkpm {
 struct EyeMarks {
     struct Map {
         Buffer<uint> bits{};
-        float cellWidth = 0; // of the finest cells, world units
+        float cellWidth = 0; // of the finest cells
     };
     Kernel<MarkArgs> kernel;
     Map global{};
@@ -21,7 +21,7 @@ struct EyeMarks {
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};
-    float nearDistance = 0; // a gather ray shorter than this goes on, world units
+    float nearDistance = 0; // a gather ray shorter than this goes on
     const EyeMarks* marks = nullptr; // the places are marked there, and nothing is gathered
 };
 

@@ -31,9 +31,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .targets = targets,
               .missing = missing,
               .lit = scene.lit,
+              .near = scene.near,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
-              .targetCount = static_cast<uint>(scene.targets.size())};
+              .targetCount = static_cast<uint>(scene.targets.size()),
+              .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);
     look(scene.view, settings.size);
 }

@@ -10,7 +10,7 @@ class PhotonGrid {
 public:
     PhotonGrid(Gpu& gpu, std::string name);
 
-    /// Sorts the first `count` of `photons` into cells for gathers within `radius` (world units).
+    /// Sorts the first `count` of `photons` into cells for gathers within `radius`.
     /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of a pass,
     /// crowded cells are thinned (see crowd.glsl); without one, all photons are there. The result has no radius field, and is
     /// valid until the next build.

@@ -41,7 +41,7 @@ static double reachOf(const Bounds& box) {
 
 const std::size_t enoughForExtent = 100; // places
 
-Extent extentOf(const Scene& scene) { return {diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene)}; }
+Extent extentOf(const Scene& scene) { return {diagonalOf(scene.bounds), reachOf(scene.bounds), surfaceArea(scene), scene.coordinates.unit}; }
 
 Extent extentOf(const Extent& whole, std::span<const vec3> places) {
     if (places.size() < enoughForExtent) return whole;
@@ -49,7 +49,7 @@ Extent extentOf(const Extent& whole, std::span<const vec3> places) {
     const double room = 2; // for those beyond the middle
     const double diagonal = room * diagonalOf(middle);
     if (diagonal < std::ldexp(reachOf(middle), -10)) return whole; // all but a point
-    return {std::min(whole.diagonal, diagonal), std::min(whole.reach, room * reachOf(middle)), std::min(whole.area, 2 * diagonal * diagonal)};
+    return {std::min(whole.diagonal, diagonal), std::min(whole.reach, room * reachOf(middle)), std::min(whole.area, 2 * diagonal * diagonal), whole.unit};
 }
 
 float widestRadius(const Extent& extent, uint photons, uint nearest) {
@@ -67,7 +67,7 @@ void requireRadius(const Extent& extent, float radius, std::string_view name) {
     if (drownsInRounding(extent, radius))
         throw InputError(fmt::format("{}: found {:.3g}; allowed: at least {:.3g}, since the coordinates of what is lit reach {:.3g} with the digits of 32-bit floats; "
                                      "without it vkpm chooses",
-                                     name, radius, leastRadius(extent), extent.reach));
+                                     name, extent.unit * double{radius}, extent.unit * leastRadius(extent), extent.unit * extent.reach));
 }
 
 uint mostLevels(const Extent& extent, float radius) {

@@ -10,7 +10,8 @@ namespace vkpm {
 struct Extent {
     double diagonal; // of its bounding box,
     double reach;    // greatest coordinate,
-    double area;     // of its surfaces, in world units
+    double area;     // of its surfaces, in its own units
+    double unit = 1; // of lengths, in world units
 };
 
 /// The extent of a scene's shapes.
@@ -20,7 +21,7 @@ Extent extentOf(const Scene& scene);
 /// the light must not decide radii.
 Extent extentOf(const Extent& scene, std::span<const vec3> places);
 
-/// The widest first radius that the program chooses by itself, world units: a fiftieth of the scene, less if there are many
+/// The widest first radius that the program chooses by itself: a fiftieth of the scene, less if there are many
 /// photons, or, where the k nearest of them are sought (nearest > 0), wide enough to hold them almost everywhere.
 float widestRadius(const Extent& extent, uint photons, uint nearest);
 

@@ -47,7 +47,8 @@ std::optional<MapStages> Renderer::construct(MapKind kind) {
     const bool isGlobal = kind == MapKind::global;
     if (!(isGlobal ? sceneHas.hasGlobalMap : sceneHas.hasCausticMap)) return {};
     const uint photons = isGlobal ? settings.photons : settings.causticPhotons;
-    const std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
+    std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
+    if (radius) *radius = static_cast<float>(double{*radius} / extent.unit);
     gpu.compilesAhead = true;
     MapStages stages{kind, PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons),
                      PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f), !radius};

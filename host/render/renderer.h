@@ -19,7 +19,7 @@ struct MapStages {
     PhotonTracing tracing;
     PhotonGrid grid;
     float flux;                         // W per photon
-    float radius;                       // of the first pass, the widest, world units
+    float radius;                       // of the first pass, the widest
     bool chooses;                       // whether the program chooses it
     std::optional<RadiusField> field{}; // where it is less, if the program chooses
     bool measured = false;              // whether radii are those of the photons now

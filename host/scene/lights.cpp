@@ -33,17 +33,26 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
     }
 }
 
-Target sphereOfLit(const Scene& scene) {
+/// About the boxes of primitives that count, `wide` times half the diagonal of them all.
+template <class Counts> static Target sphereOf(const Scene& scene, double wide, Counts counts) {
     Bounds box;
     for (std::size_t i = 0; i < scene.primitives.size(); i++) {
         const Primitive& p = scene.primitives[i];
-        if (p.light != NONE && scene.materials[p.material].color == vec3{0}) continue;
+        if (!counts(p)) continue;
         const Bounds one = boxOf(p, i >= scene.triangleCount);
         box = {glm::min(box.low, one.low), glm::max(box.high, one.high)};
     }
     if (box.low.x > box.high.x) return {vec3{0}, 0};
     const dvec3 sides = dvec3{box.high} - dvec3{box.low};
-    return {vec3{dvec3{box.low} + 0.5 * sides}, static_cast<float>(0.500001 * glm::length(sides))};
+    return {vec3{dvec3{box.low} + 0.5 * sides}, static_cast<float>(0.5 * wide * glm::length(sides))};
+}
+
+Target sphereOfLit(const Scene& scene) {
+    return sphereOf(scene, 1.000002, [&](const Primitive& p) { return p.light == NONE || scene.materials[p.material].color != vec3{0}; });
+}
+
+Target sphereOfNear(const Scene& scene) {
+    return sphereOf(scene, 1.001, [&](const Primitive& p) { return p.light == NONE || !isFar(scene, scene.lights[p.light]); });
 }
 
 bool isFar(const Scene& scene, const Light& light) {

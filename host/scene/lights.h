@@ -18,6 +18,9 @@ void chooseLights(Scene& scene, const std::filesystem::path& file);
 /// The sphere about the box of all that light falls upon: of all primitives but lights that reflect nothing.
 Target sphereOfLit(const Scene& scene);
 
+/// The sphere about all but far lights, a little wide, so that photons may start on it.
+Target sphereOfNear(const Scene& scene);
+
 /// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in targets.glsl.
 bool isFar(const Scene& scene, const Light& light);
 

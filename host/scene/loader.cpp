@@ -1,7 +1,6 @@
 /// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
 #include "scene/bvh.h"
 #include "scene/lights.h"
-#include "scene/origin.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
@@ -16,12 +15,11 @@ namespace {
 
 constexpr std::size_t manyShapes = 10'000'000;
 
-/// The view, with places relative to an origin of coordinates.
-View readView(Reader camera, dvec3 origin) {
-    View view{.base = origin};
-    view.origin = vec3{camera.at("origin").place() - origin};
+View readView(Reader camera, const Coordinates& coordinates) {
+    View view{.coordinates = coordinates};
+    view.origin = vec3{coordinates.inside(camera.at("origin").place())};
     const Reader targetReader = camera.at("target");
-    view.target = vec3{targetReader.place() - origin};
+    view.target = vec3{coordinates.inside(targetReader.place())};
     const auto up = camera.find("up");
     if (up) view.up = up->vector();
     if (const auto degrees = camera.find("fieldOfView"))
@@ -109,10 +107,11 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
 /// Areas and squared distances must not leave the range of float on the device.
 void checkExtent(const Scene& scene, const std::filesystem::path& file) {
     const dvec3 sides = dvec3{scene.bounds.high} - dvec3{scene.bounds.low};
-    const double extent = std::max({sides.x, sides.y, sides.z});
-    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
-    if (!(extent >= 1e-9 && std::max({reach.x, reach.y, reach.z}) <= 1e12f))
-        refuseFile(file, ": /shapes", fmt::format("the shapes extend over {:.3g} and reach as far as {:.3g} from the world's origin", extent, std::max({reach.x, reach.y, reach.z})),
+    const double extent = scene.coordinates.unit * std::max({sides.x, sides.y, sides.z});
+    const vec3 corner = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
+    const double reach = scene.coordinates.unit * double{std::max({corner.x, corner.y, corner.z})};
+    if (!(extent >= 1e-9 && reach <= 1e12))
+        refuseFile(file, ": /shapes", fmt::format("the shapes extend over {:.3g} and reach as far as {:.3g} from their middle", extent, reach),
                    "allowed are at least 1e-9 and at most 1e12");
 }
 
@@ -126,7 +125,7 @@ void readScene(Reader root, Scene& scene) {
     const Reader shapes = root.at("shapes");
     root.finish();
 
-    (void)readView(camera, dvec3{0}); // what is wrong with it comes first
+    (void)readView(camera, {}); // what is wrong with it comes first
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
     std::map<std::string, uint> indices;
@@ -137,8 +136,8 @@ void readScene(Reader root, Scene& scene) {
     std::vector<dvec3> places; // not the camera's, which may move while the scene stays where it is
     for (std::size_t i = 0; i < count; ++i)
         for (const dvec3& place : loader.somePlaces(shapes.element(i))) places.push_back(place);
-    scene.origin = chooseOrigin(places);
-    scene.view = readView(camera, scene.origin);
+    scene.coordinates = chooseCoordinates(places);
+    scene.view = readView(camera, scene.coordinates);
     for (std::size_t i = 0; i < count; ++i) loader.add(shapes.element(i));
     loader.finish();
 }
@@ -160,6 +159,7 @@ Scene loadScene(const std::filesystem::path& file) {
     checkExtent(scene, file);
     chooseLights(scene, file);
     scene.lit = sphereOfLit(scene);
+    scene.near = sphereOfNear(scene);
 
     Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
     scene.nodes = std::move(bvh.nodes);

@@ -85,7 +85,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasGuide = 0; // the renderer finds out
-    features.hasFarLights = anyLight([&](const Light& light) { return isFar(scene, light); });
+    features.hasFarLights = static_cast<uint>(std::min(std::ranges::count_if(scene.lights, [&](const Light& light) { return isFar(scene, light); }), std::ptrdiff_t{2}));
     features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);
     features.hasNearest = settings.nearest > 0;

@@ -1,6 +1,7 @@
 /// A scene as arrays of the structs that kernels read, and the loader that fills them from a JSON file.
 #pragma once
 #include "gpu/error.h"
+#include "scene/coordinates.h"
 #include "settings.h"
 #include "shared.h"
 #include <filesystem>
@@ -21,11 +22,11 @@ struct View {
     vec3 target{0};
     vec3 up{0, 1, 0};
     float fieldOfView = glm::radians(40.0f);
-    glm::dvec3 base{0}; // what origin and target are relative to, in world units: the scene's origin of coordinates
+    Coordinates coordinates{}; // of origin and target
 };
 
 struct Scene {
-    glm::dvec3 origin{0}; // in world units, of all coordinates here and on the device
+    Coordinates coordinates{}; // of all places and lengths here and on the device
     std::string name; // the file's name without folder and extension
     std::string text; // the scene file as read
     std::vector<std::filesystem::path> files; // that were read: the scene file first, then meshes
@@ -37,10 +38,11 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
-    Target lit{vec3{0}, 0}; // about all that light falls upon
+    Target lit{vec3{0}, 0};  // about all that light falls upon
+    Target near{vec3{0}, 0}; // about all but far lights
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
-    vec3 flux{0};       // of all lights, W
+    vec3 flux{0};       // of all lights, W over the square of the unit of length
     Bounds bounds;
     View view;
     Settings settings;

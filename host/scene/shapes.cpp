@@ -126,14 +126,14 @@ void ShapeLoader::addSphere(Reader& shape) {
     if (!scale)
         shape.at("transform")
             .fail("found a non-uniform scale of a sphere", "scale it uniformly, or use a mesh instead");
-    const double scaled = *scale * double{radius};
+    const double scaled = *scale * double{radius} / scene.coordinates.unit;
     const vec3 a = place(transform, center);
     const vec3 b{static_cast<float>(scaled), 0, 0};
     if (!(b.x > 0)) shape.fail("the transform shrinks the sphere to radius 0", "let it keep a radius > 0");
     const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
     extendBounds(shape, a - b.x, a + b.x);
     requireRoom(shape);
-    spheres.push_back({a, b, poleOf(transform.point(center) - scene.origin, scaled), surface.material, light, NONE});
+    spheres.push_back({a, b, poleOf(scene.coordinates.inside(transform.point(center)), scaled), surface.material, light, NONE});
     if (isSpecular(surface)) scene.targets.push_back({a, b.x});
 }
 
@@ -142,8 +142,8 @@ void ShapeLoader::addRectangle(Reader& shape) {
     const Reader edgesReader = shape.at("edges");
     const std::vector<Reader> edges = edgesReader.elements(2, 2, "an array of 2 edges, [u, v]; the normal is u x v");
     const Transform transform = readTransform(shape);
-    vec3 u{transform.direction(edges[0].place())};
-    vec3 v{transform.direction(edges[1].place())};
+    vec3 u{transform.direction(edges[0].place()) / scene.coordinates.unit};
+    vec3 v{transform.direction(edges[1].place()) / scene.coordinates.unit};
     const Surface surface = readSurface(shape);
     shape.finish();
 
@@ -221,8 +221,8 @@ void ShapeLoader::requireRoom(const Reader& shape) const {
         shape.fail("the scene has too many primitives", fmt::format("allowed are {}", mostPrimitives));
 }
 
-/// Of the device: relative to the scene's origin, rounded once.
-vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const { return vec3{transform.point(point) - scene.origin}; }
+/// Of the device, rounded once.
+vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const { return vec3{scene.coordinates.inside(transform.point(point))}; }
 
 void ShapeLoader::extendBounds(const Reader& shape, vec3 low, vec3 high) {
     if (!isFinite(low) || !isFinite(high))

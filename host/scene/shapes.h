@@ -17,7 +17,7 @@ public:
 
     /// Two places at opposite ends of a shape, in world units; none if the shape is wrong, which add() tells.
     std::vector<glm::dvec3> somePlaces(Reader shape);
-    /// Adds one element of "shapes", relative to the scene's origin. Throws InputError.
+    /// Adds one element of "shapes", in the scene's coordinates. Throws InputError.
     void add(Reader shape);
     /// Appends the spheres, which follow all triangles.
     void finish();

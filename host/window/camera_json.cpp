@@ -9,8 +9,11 @@ namespace {
 std::string list(const vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 /// A place in world units, with the digits that it takes.
-std::string placeList(const vec3& v, const glm::dvec3& base) {
-    const auto number = [&](int axis) { return base[axis] == 0 ? fmt::format("{}", v[axis]) : fmt::format("{}", base[axis] + double{v[axis]}); };
+std::string placeList(const vec3& v, const Coordinates& coordinates) {
+    const glm::dvec3 world = coordinates.world(v);
+    const auto number = [&](int axis) {
+        return coordinates.origin[axis] == 0 ? fmt::format("{}", static_cast<float>(world[axis])) : fmt::format("{}", world[axis]);
+    };
     return fmt::format("[{}, {}, {}]", number(0), number(1), number(2));
 }
 
@@ -47,13 +50,13 @@ std::size_t endOfObject(const std::string& text, std::size_t i) {
 } // namespace
 
 View inWorldDigits(View view) {
-    view.origin = vec3{(view.base + glm::dvec3{view.origin}) - view.base};
-    view.target = vec3{(view.base + glm::dvec3{view.target}) - view.base};
+    view.origin = vec3{view.coordinates.inside(view.coordinates.world(view.origin))};
+    view.target = vec3{view.coordinates.inside(view.coordinates.world(view.target))};
     return view;
 }
 
 std::string cameraJson(const View& view) {
-    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}}})", placeList(view.origin, view.base), placeList(view.target, view.base), list(view.up), degreesOf(view.fieldOfView));
+    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}}})", placeList(view.origin, view.coordinates), placeList(view.target, view.coordinates), list(view.up), degreesOf(view.fieldOfView));
 }
 
 std::string withCamera(const std::string& text, const View& view) {

@@ -7,7 +7,7 @@
 namespace vkpm {
 
 inline bool operator==(const View& a, const View& b) {
-    return a.origin == b.origin && a.target == b.target && a.up == b.up && a.fieldOfView == b.fieldOfView && a.base == b.base;
+    return a.origin == b.origin && a.target == b.target && a.up == b.up && a.fieldOfView == b.fieldOfView && a.coordinates == b.coordinates;
 }
 
 /// A photon that is shown as a point.

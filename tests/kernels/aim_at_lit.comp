@@ -8,10 +8,9 @@
 #include "features.glsl"
 #include "targets.glsl"
 
-vec4 aim(AimCase x) {
-    vec3 direction;
-    float weight = aimAtLit(args.scene.at[0], LightPoint(x.position, vec3(0.0), x.normal), x.u, direction);
-    return vec4(direction, weight);
+vec4 aimed(AimCase x) {
+    Aim aim = aimAtLit(args.scene.at[0], LightPoint(x.position, vec3(0.0), x.normal), x.u);
+    return vec4(aim.direction, aim.weight);
 }
 
-MAP(AimCase, vec4, aim(x))
+MAP(AimCase, vec4, aimed(x))

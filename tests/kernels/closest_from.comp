@@ -4,6 +4,7 @@
 #include "../map.glsl"
 #include "sphere.glsl"
 #include "intersect.glsl"
+#include "offset.glsl"
 #include "traverse.glsl"
 
 MAP(StartCase, Hit, closest(args.scene.at[0], x.origin, x.direction, x.from))

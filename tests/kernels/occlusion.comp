@@ -4,6 +4,7 @@
 #include "../map.glsl"
 #include "sphere.glsl"
 #include "intersect.glsl"
+#include "offset.glsl"
 #include "traverse.glsl"
 
 MAP(VectorPair, uint, uint(occluded(args.scene.at[0], x.a, x.b, NONE)))
