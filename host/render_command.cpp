@@ -38,6 +38,7 @@ int render(const Options& options) {
     requireSoundDriver(gpu);
     EventLog log(options.log, options.resume);
     log.open();
+    for (const std::string& warning : scene.warnings) log.write("warning", {{"text", warning}});
     return adviseOnMemory(gpu, scene, settings, [&] {
         RenderJob job(options, scene, settings, gpu, log, start);
         if (options.resume) job.resume();

@@ -106,12 +106,17 @@ void RenderJob::resume() {
 bool RenderJob::done() const {
     const uint rendered = passCount() - restored;
     if (interrupted() || passes.begin + passCount() >= passes.end) return true;
-    if (options.targetError && error && error->error <= *options.targetError) return true;
+    if (options.targetError && (hopeless || (error && error->error <= *options.targetError))) return true;
     return options.seconds && restored + rendered > 0 && elapsed() + 0.5 * elapsed() / std::max(rendered, 1u) >= *options.seconds;
 }
 
+bool RenderJob::missesPhotons() const {
+    const PhotonLedger global = renderer.photons(MapKind::global), caustic = renderer.photons(MapKind::caustic);
+    return global.emitted + caustic.emitted > 0 && global.stored + caustic.stored == 0;
+}
+
 std::optional<ErrorEstimate> RenderJob::estimateNow() const {
-    if (noiseFreedom(renderer.film.ranges()) == 0 || !(settings.layers >> ASK_NOISE & 1)) return {};
+    if (missesPhotons() || noiseFreedom(renderer.film.ranges()) == 0 || !(settings.layers >> ASK_NOISE & 1)) return {};
     return estimateError([&](uint row, uint rows) { return renderer.film.pixels(row, rows); }, settings.size);
 }
 
@@ -123,6 +128,7 @@ void RenderJob::estimate() {
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
     error = estimateNow();
+    hopeless = missesPhotons();
     if (error) log.write("error", {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
 }
 
@@ -228,15 +234,39 @@ Statistics RenderJob::statistics() const {
     return s;
 }
 
+void RenderJob::tell(const std::string& warning) {
+    warn(warning);
+    log.write("warning", {{"text", warning}});
+}
+
+/// Whether no pixel has light; a few rows tell of most pictures.
+bool RenderJob::isBlack() const {
+    const auto isDark = [](const Pixel& pixel) { return std::ranges::all_of(pixel.mean.layers, [](vec3 light) { return light == vec3{0}; }); };
+    const uint height = settings.size.y;
+    for (const uint step : {std::max(1u, height / 16), 1u})
+        for (uint row = 0; row < height; row += step)
+            if (!std::ranges::all_of(renderer.film.pixels(row, 1), isDark)) return false;
+    return true;
+}
+
+void RenderJob::warnOfDarkness() {
+    if (missesPhotons())
+        tell("no photon arrived anywhere, so that indirect light and caustics are missing and no error is stated; do the lamps shine away from everything "
+             "(a rectangle emits on the side of u x v, with \"twoSided\" on both), or are they inside something?");
+    else if (isBlack())
+        tell("the picture is black: nothing that the camera sees is lit; is the camera, or a lamp, inside something?");
+}
+
 bool RenderJob::finish() {
     renderSeconds = elapsed();
     if (passCount() == 0) return false;
     if (report) addToReport();
     if (nonfinite())
-        warn(fmt::format("{} samples were not finite and count as black; see nonfinite in --stats", nonfinite()));
+        tell(fmt::format("{} samples were not finite and count as black; see nonfinite in --stats", nonfinite()));
     for (const MapKind kind : {MapKind::global, MapKind::caustic})
         if (const std::uint64_t lost = renderer.photons(kind).lost)
-            warn(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
+            tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
+    warnOfDarkness();
     save();
     error = estimateNow();
     if (report) finishReport();

@@ -50,7 +50,7 @@ public:
     std::uint64_t photons() const; // emitted
     std::optional<GatherRadii> globalRadii() const;
     std::optional<GatherRadii> causticRadii() const;
-    /// Nothing while there are no batches of passes that could differ, or if nobody asked for noise.
+    /// Nothing while there are no batches of passes that could differ, if nobody asked for noise, or if photons are missing.
     std::optional<ErrorEstimate> estimateNow() const;
     /// The last estimate that --target-error asked for.
     const std::optional<ErrorEstimate>& lastError() const { return error; }
@@ -69,6 +69,10 @@ private:
     void checkpoint();
     void sayWhatIsSaved() const;
     std::uint64_t nonfinite() const;
+    bool missesPhotons() const; // whether none of many arrived
+    bool isBlack() const;
+    void warnOfDarkness();
+    void tell(const std::string& warning);
 
     const Options& options;
     const Scene& scene;
@@ -88,6 +92,7 @@ private:
     double renderSeconds = 0;
     double reporting = 0;               // time that reports and the like took, no part of rendering
     std::optional<ErrorEstimate> error; // the last estimate
+    bool hopeless = false;              // whether there will be none
     std::optional<Report> report;
 };
 

@@ -226,6 +226,46 @@ TEST(Scene, MeshesOfOtherProgramsAreRead) {
     EXPECT_TRUE(loadMeshText(corners + "usemtl glass\nf 1 2 3\nusemtl glass\nf 1 3 4\n").warnings.empty());
 }
 
+/// What is said of a glass mesh of a cube's corners and these faces.
+std::vector<std::string> saidOfGlass(const std::string& faces, json transform = json::array(), const json& more = json::array()) {
+    json shape = mesh("cube.obj");
+    shape["file"] = writeScene("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n" + faces, "mesh.obj").string();
+    shape["material"] = "water";
+    shape["name"] = "pane";
+    if (!transform.empty()) shape["transform"] = transform;
+    json scene = smallScene();
+    scene["shapes"].erase(0);
+    scene["shapes"].push_back(shape);
+    for (const json& one : more) scene["shapes"].push_back(one);
+    return loadJson(scene).warnings;
+}
+
+TEST(Scene, GlassThatBoundsNoSolidIsNamed) {
+    const std::string cube = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", sheet = "f 1 2 3 4\n";
+    EXPECT_THAT(saidOfGlass(cube), testing::IsEmpty());
+    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, -2, 3]}])")), testing::IsEmpty()) << "mirrored";
+    EXPECT_THAT(saidOfGlass(sheet), ElementsAre(AllOf(HasSubstr("/shapes/1: \"pane\": the glass is open, 4 edges"))));
+    EXPECT_THAT(saidOfGlass(cube.substr(cube.find('\n') + 1)), ElementsAre(HasSubstr("the glass is open, 4 edges")));
+    EXPECT_THAT(saidOfGlass("f 1 2 3 4\n" + cube.substr(cube.find('\n') + 1)), ElementsAre(HasSubstr("face different ways at 4 edges")));
+    EXPECT_THAT(saidOfGlass("f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"), ElementsAre(HasSubstr("inside out")));
+    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"translate": [0, 3, 0]}])")), ElementsAre(HasSubstr("the glass is 1e-05 thick")));
+    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"scale": 1e9}])")), testing::Not(testing::IsEmpty()));
+
+    // Water between walls, and what rectangles close.
+    const auto wall = [](vec3 corner, vec3 u, vec3 v, const char* material) {
+        const auto list = [](vec3 x) { return json{x.x, x.y, x.z}; };
+        return json{{"type", "rectangle"}, {"corner", list(corner)}, {"edges", {list(u), list(v)}}, {"material", material}};
+    };
+    const json walls{wall({0, 0, -1}, {0, 1, 0}, {0, 0, 2}, "grey"), wall({1, 0, -1}, {0, 1, 0}, {0, 0, 2}, "grey"),
+                     wall({0, 0, -1}, {1, 0, 0}, {0, 0, 2}, "grey"), wall({0, 1, -1}, {1, 0, 0}, {0, 0, 2}, "grey")};
+    EXPECT_THAT(saidOfGlass(sheet, json::array(), walls), testing::IsEmpty());
+    EXPECT_THAT(saidOfGlass(cube, json::array(), json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water")}), ElementsAre(HasSubstr("/shapes/2: the glass is open")));
+    EXPECT_THAT(saidOfGlass(cube, json::array(), json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water"), wall({3, 0, 0}, {0, 1, 0}, {0, 0, 1}, "water"),
+                                                      wall({3, 0, 0}, {0, 0, 1}, {1, 0, 0}, "water"), wall({4, 1, 1}, {-1, 0, 0}, {0, 0, -1}, "water"),
+                                                      wall({4, 1, 1}, {0, 0, -1}, {0, -1, 0}, "water"), wall({4, 1, 1}, {0, -1, 0}, {-1, 0, 0}, "water")}),
+                testing::IsEmpty());
+}
+
 TEST(Scene, MeshNumbersThatNobodyUsesMayBeAnything) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv nan nan -nan(ind)\nv 1 1 0\nv 0 1e39 inf\nvn 0 0 1\nvn nan nan nan\n";
     EXPECT_EQ(loadMeshText(corners + "f 1 2 4\n").triangleCount, 3u);

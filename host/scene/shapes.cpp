@@ -72,6 +72,16 @@ void ShapeLoader::add(Reader shape) {
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
     scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
+    for (auto& [shape, primitives] : glass) {
+        const auto name = shape.find("name");
+        for (const std::string& wrong : wrongWithGlass(scene, primitives))
+            shape.warn(scene.warnings, name ? fmt::format("\"{}\": {}", printable(name->text(), 60), wrong) : wrong);
+    }
+}
+
+/// Of primitives that were added from `first` on.
+void ShapeLoader::noteGlass(const Reader& shape, const Surface& surface, std::size_t first) {
+    if (scene.materials[surface.material].kind == MATERIAL_GLASS) glass.push_back({shape, {first, scene.primitives.size()}});
 }
 
 ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
@@ -157,6 +167,7 @@ void ShapeLoader::addRectangle(Reader& shape) {
     addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
     addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
     addTarget(surface, std::array{a, a + u, a + u + v, a + v});
+    noteGlass(shape, surface, scene.primitives.size() - 2);
 }
 
 const Mesh& ShapeLoader::meshOf(Reader& shape) {
@@ -195,6 +206,7 @@ void ShapeLoader::addMesh(Reader& shape) {
         for (const vec3 point : {scene.primitives[i].a, scene.primitives[i].b, scene.primitives[i].c})
             points.push_back(point);
     addTarget(surface, points);
+    noteGlass(shape, surface, first);
 }
 
 void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,

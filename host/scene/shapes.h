@@ -1,5 +1,6 @@
 /// Shapes of a scene file, baked into primitives, lights and targets in world space.
 #pragma once
+#include "scene/glass.h"
 #include "scene/mesh.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
@@ -19,7 +20,7 @@ public:
     std::vector<glm::dvec3> somePlaces(Reader shape);
     /// Adds one element of "shapes", in the scene's coordinates. Throws InputError.
     void add(Reader shape);
-    /// Appends the spheres, which follow all triangles.
+    /// Appends the spheres, which follow all triangles, and warns of glass that is not the boundary of a solid.
     void finish();
 
 private:
@@ -47,11 +48,13 @@ private:
     uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
     void addTarget(const Surface& surface, std::span<const vec3> points);
     bool isSpecular(const Surface& surface) const;
+    void noteGlass(const Reader& shape, const Surface& surface, std::size_t first);
 
     Scene& scene;
     const std::map<std::string, uint>& materials;
     std::map<std::pair<std::filesystem::path, Smoothness>, Mesh> meshes; // by file, each loaded once
     std::vector<Primitive> spheres;
+    std::vector<std::pair<Reader, GlassShape>> glass; // what is made of it, but for spheres
     uint black = NONE;
 };
 

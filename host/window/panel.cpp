@@ -64,6 +64,7 @@ void showProgress(const PanelInput& input) {
     const uvec2 size = draft ? input.picture->size : s.settings.size;
     row("film", fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
     if (!input.about.empty()) note(input.about);
+    for (const std::string& text : s.warnings) note(text, warning);
     if (!s.problem.empty()) note(s.problem, warning);
 }
 

@@ -40,6 +40,7 @@ struct RenderState {
     std::string device{};
     std::string activity = "loading";
     std::string problem{}; // of the scene file or of saving; empty if there is none
+    std::vector<std::string> warnings{}; // of the scene
     std::string saved{};   // the file that was written last
     uint saves = 0;
     uint passes = 0;

@@ -144,7 +144,7 @@ bool RenderThread::load(const Wishes& wish) {
     try {
         auto next = std::make_unique<Session>(Session{wish.options, loadScene(wish.options.scene)});
         requireFilesApart(next->options, next->scene.files);
-        for (const std::string& warning : next->scene.warnings) warn(warning);
+        for (const std::string& warning : next->scene.warnings) warn(warning), log.write("warning", {{"text", warning}});
         if (first) {
             requireWritable(next->options.output);
             requireWritable(pngBeside(next->options.output));
@@ -178,6 +178,7 @@ void RenderThread::adopt(std::unique_ptr<Session> next) {
     own.problem.clear();
     own.settings = session->settings;
     own.sceneView = session->loadedView;
+    own.warnings = session->scene.warnings;
     hasWork = true;
     halted = false;
     midPass = false;

@@ -1,0 +1,20 @@
+/// Glass that is not the boundary of a solid, by shape.
+#pragma once
+#include "scene/scene.h"
+#include <string>
+#include <vector>
+
+namespace vkpm {
+
+/// Primitives first .. end - 1 of a scene, which are one shape of glass.
+struct GlassShape {
+    std::size_t first;
+    std::size_t end;
+};
+
+/// What is wrong with a shape of glass, in words, and what helps: open where nothing else closes it, turned inside out or here and
+/// there, or so thin that rounding joins its faces. Light that enters such glass does not leave it as it should. Rectangles may close
+/// each other.
+std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& shape);
+
+} // namespace vkpm
