@@ -49,6 +49,17 @@ TEST_F(Program, BenchMeasures) {
     }
 }
 
+// As if the host could not write the device's memory.
+TEST_F(Program, StagedMemoryGivesTheSameFiles) {
+    EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o a.exr").code, 0);
+    ::setenv("VKPM_STAGING", "1", 1);
+    const Result staged = run("--scene " + scene("box") + small + "--quiet -o b.exr --stats b.json");
+    ::unsetenv("VKPM_STAGING");
+    EXPECT_EQ(staged.code, 0) << staged.output;
+    EXPECT_TRUE(bytesOf(folder / "a.png") == bytesOf(folder / "b.png"));
+    EXPECT_NE(bytesOf(folder / "b.json").find("staging"), std::string::npos) << "nothing was staged";
+}
+
 TEST_F(Program, TwoRunsWriteTheSameFiles) {
     for (const char* file : {"a.exr", "b.exr"}) EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o " + file).code, 0);
     EXPECT_TRUE(bytesOf(folder / "a.exr") == bytesOf(folder / "b.exr"));

@@ -1,6 +1,7 @@
 /// Choice of a device, and its one compute queue.
 #include "gpu/handles.h"
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -90,19 +91,21 @@ static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& dev
     return chosen;
 }
 
+static bool hasExtension(const vk::raii::PhysicalDevice& device, std::string_view name) {
+    const auto extensions = device.enumerateDeviceExtensionProperties();
+    return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName.data(); });
+}
+
 static vk::raii::Device createDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .maintenance4 = true};
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .hostQueryReset = true, .bufferDeviceAddress = true};
     const vk::PhysicalDeviceFeatures2 features{.pNext = &v12};
-    const vk::DeviceCreateInfo create{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    vk::DeviceCreateInfo create{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    const std::array portability{"VK_KHR_portability_subset"}; // a device that offers it wants it
+    if (hasExtension(physical, portability[0])) create.setPEnabledExtensionNames(portability);
     return attempt("vkCreateDevice", installHint, [&] { return vk::raii::Device(physical, create); });
-}
-
-static bool hasExtension(const vk::raii::PhysicalDevice& device, std::string_view name) {
-    const auto extensions = device.enumerateDeviceExtensionProperties();
-    return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName.data(); });
 }
 
 // Bytes of the largest device-local heap that nobody uses yet, as far as the driver tells. Drivers for the processor grant any
@@ -134,12 +137,14 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     vk->queue = vk->device.getQueue(vk->family, 0);
     vk->commands = vk->device.createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = vk->family});
     const auto properties = vk->physical.getProperties();
-    if (vk->physical.getQueueFamilyProperties()[vk->family].timestampValidBits > 0)
+    if (const std::uint32_t bits = vk->physical.getQueueFamilyProperties()[vk->family].timestampValidBits; bits > 0) {
         vk->nanosecondsPerTick = properties.limits.timestampPeriod;
+        vk->tickMask = bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
+    }
     vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
     vk->freeBytes = freeBytes(vk->physical);
     vk->isProcessor = vk->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
-    vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu;
+    vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu && !std::getenv("VKPM_STAGING");
     return vk;
 }
 
@@ -170,6 +175,13 @@ void Gpu::Handles::submit(vk::raii::CommandBuffer recorded, std::shared_ptr<cons
 }
 
 void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const {
+    // A fence alone does not make what was written visible to the host.
+    const vk::MemoryBarrier2 toHost{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                    .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                    .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                    .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+    recorded.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &toHost});
+    recorded.end();
     attempt(running, runningHint, [&] {
         const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
         enqueue(queue, recorded, *fence);
@@ -182,7 +194,6 @@ void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const 
 void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
     const vk::raii::CommandBuffer recording = begin();
     record(recording);
-    recording.end();
     submitAndWait(recording);
 }
 

@@ -16,8 +16,9 @@ struct Gpu::Handles {
     vk::raii::QueryPool stamps{nullptr};
     std::uint32_t family = 0;
     float nanosecondsPerTick = 0;
+    std::uint64_t tickMask = 0; // the bits that a timestamp has
     bool isProcessor = false;      // no GPU: the driver runs on the host
-    bool mapsDeviceMemory = false; // the host can write device memory directly
+    bool mapsDeviceMemory = false; // the host can write device memory directly; VKPM_STAGING says that it cannot, for tests
     std::uint64_t freeBytes = 0; // of device memory when the device was opened
     DeviceInfo info;
     std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>> kernels; // by SPIR-V and features
@@ -30,7 +31,7 @@ struct Gpu::Handles {
     vk::raii::CommandBuffer begin() const;
     /// Submits recorded commands, leaves them to run, and keeps what they use until they are done.
     void submit(vk::raii::CommandBuffer commands, std::shared_ptr<const void> used) const;
-    /// Submits recorded commands and waits until they, and all before, are done.
+    /// Ends a recording, submits it, and waits until it, and all before, is done and the host sees what it wrote.
     void submitAndWait(const vk::raii::CommandBuffer& commands) const;
     /// Records commands, submits them and waits until they are done.
     void execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;

@@ -1,9 +1,11 @@
 /// Creating the instance, with or without validation.
 #include "gpu/instance.h"
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 namespace vkpm {
@@ -25,12 +27,16 @@ static vk::raii::Instance createInstance(const vk::raii::Context& context, std::
     const std::vector<const char*> layers = validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
     std::vector<const char*> extensions(wanted.begin(), wanted.end());
     if (validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    const auto offered = context.enumerateInstanceExtensionProperties();
+    const bool portability = std::ranges::any_of(offered, [](const auto& extension) { return std::string_view(extension.extensionName) == "VK_KHR_portability_enumeration"; });
+    if (portability) extensions.push_back("VK_KHR_portability_enumeration");
     const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
                              vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
                              vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
     vk::ValidationFeaturesEXT features;
     features.setEnabledValidationFeatures(enabled);
     vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};
+    if (portability) create.flags = vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR; // or drivers over Metal are not listed
     create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
     return attempt("vkCreateInstance", validate ? "VKPM_VALIDATION needs vulkan-validationlayers" : installHint,
                    [&] { return vk::raii::Instance(context, create); });

@@ -87,13 +87,12 @@ void Recording::addTimes() {
     const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
                                                                      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++)
-        handles->gpu.times[handles->names[i]].seconds += double(ticks[i + 1] - ticks[i]) * vk.nanosecondsPerTick * 1e-9;
+        handles->gpu.times[handles->names[i]].seconds += double((ticks[i + 1] - ticks[i]) & vk.tickMask) * vk.nanosecondsPerTick * 1e-9;
 }
 
 void Recording::submit() {
     if (!handles->open) return;
     if (handles->gpu.cancel && *handles->gpu.cancel) throw Cancelled{};
-    handles->commands.end();
     handles->gpu.handles->submitAndWait(handles->commands);
     addTimes();
     handles->names.clear();
