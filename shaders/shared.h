@@ -79,7 +79,7 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(29, hasDiffuse, 1)                                                                                               \
     X(30, hasBias, 1)                                                                                                  \
     X(31, checksFeatures, 0) /* kernels report what they meet and are without, see features.glsl */                    \
-    X(32, hasFarLights, 2) /* 1: only one, that none hides */                                                          \
+    X(32, hasFarLights, 2) /* 1: only one, that nothing hides */                                                       \
     X(33, hasGuide, 1)
 
 #ifdef __cplusplus

@@ -234,7 +234,7 @@ TEST(Traverse, OpaqueFacesHideTheGlassThatTouchesThem) {
             const bool touches = height < 1e-3f;
             for (std::size_t i = 0; i < found.size(); i++) {
                 ASSERT_EQ(mesh[found[i].primitive].material, touches ? opaque : glass) << height << " " << i;
-                if (touches) ASSERT_EQ(left[i].primitive, NONE) << height << " " << i;
+                if (touches) { ASSERT_EQ(left[i].primitive, NONE) << height << " " << i; }
             }
         }
 }

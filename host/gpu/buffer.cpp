@@ -94,6 +94,7 @@ static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::u
                   const std::function<void(const void*)>& after) {
     static std::mutex one;
     const std::lock_guard lock(one);
+    handles.gpu.times["staging"].dispatches++;
     const Allocation staging = allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
     void* mapped = staging.memory.mapMemory(0, VK_WHOLE_SIZE);
     if (before) before(mapped);

@@ -85,7 +85,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasGuide = 0; // the renderer finds out
-    features.hasFarLights = static_cast<uint>(std::min(std::ranges::count_if(scene.lights, [&](const Light& light) { return isFar(scene, light); }), std::ptrdiff_t{2}));
+    uint farLights = 0;
+    for (const Light& light : scene.lights)
+        if (isFar(scene, light)) farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
+    features.hasFarLights = std::min(farLights, 2u);
     features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);
     features.hasNearest = settings.nearest > 0;
