@@ -22,10 +22,9 @@ PhotonCounts countsOf(const PhotonLedger& l) {
 
 std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given, double unit) {
     if (!stages) return {};
-    const float widest = static_cast<float>(unit * double{stages->radius});
-    if (!stages->field) return GatherRadii{widest, widest, widest, given};
-    const auto radius = [&](float logarithm) { return widest * std::exp2(logarithm); };
-    return GatherRadii{radius(stages->field->smallest), radius(stages->field->median), radius(stages->field->greatest), given};
+    const auto inWorld = [&](float radius) { return static_cast<float>(unit * double{radius}); };
+    const float greatest = stages->field ? stages->radius * std::exp2(stages->field->greatest) : stages->radius;
+    return GatherRadii{inWorld(stages->smallestRadius()), inWorld(stages->typicalRadius()), inWorld(greatest), given};
 }
 
 /// "hasGlass: the scene has no glass", a line for each feature that the render needs, or does without.
@@ -257,6 +256,15 @@ void RenderJob::warnOfDarkness() {
         tell("the picture is black: nothing that the camera sees is lit; is the camera, or a lamp, inside something?");
 }
 
+void RenderJob::warnOfBlur() {
+    const std::optional<MapStages>& stages = renderer.causticMap();
+    if (!stages || !stages->roundingBinds) return;
+    const auto inWorld = [&](double length) { return scene.coordinates.unit * length; };
+    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
+    tell(fmt::format("caustics are blurred by discs of {:.3g} at least, though photons are dense enough for narrower ones: coordinates reach {:.3g} from the middle of "
+                     "the scene, with the digits of 32-bit floats; leave out what lies far from the caustics, or move it nearer", inWorld(stages->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
+}
+
 bool RenderJob::finish() {
     renderSeconds = elapsed();
     if (passCount() == 0) return false;
@@ -267,6 +275,7 @@ bool RenderJob::finish() {
         if (const std::uint64_t lost = renderer.photons(kind).lost)
             tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
     warnOfDarkness();
+    warnOfBlur();
     save();
     error = estimateNow();
     if (report) finishReport();

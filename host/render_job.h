@@ -72,6 +72,7 @@ private:
     bool missesPhotons() const; // whether none of many arrived
     bool isBlack() const;
     void warnOfDarkness();
+    void warnOfBlur();
     void tell(const std::string& warning);
 
     const Options& options;

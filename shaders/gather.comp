@@ -18,8 +18,11 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
+    if (query.column == NONE) return;
     float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
                                                             : radiusAt(args.map, query.position);
+    if (radius == 0.0) return;
+    if (args.map.partial != 0u) args.queries.at[slot].column = NONE;
     vec3 inner;
     vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
     if (hasBias != 0u)

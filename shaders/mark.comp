@@ -11,8 +11,13 @@ ARGS(MarkArgs)
 void main() {
     Queue queue = args.queue.at[0];
     if (threadIndex() >= queue.count) return;
-    Query query = args.queries.at[args.list.at[queue.first + threadIndex()]];
-    float reach = max(radiusAt(args.map, query.position), args.reach * query.footprint);
+    uint slot = args.list.at[queue.first + threadIndex()];
+    Query query = args.queries.at[slot];
+    if (query.column == NONE) return;
+    float radius = radiusAt(args.map, query.position);
+    if (radius == 0.0) return;
+    if (args.map.partial != 0u) args.queries.at[slot].column = NONE;
+    float reach = max(radius, args.reach * query.footprint);
     uint level = 0u;
     while (level < 31u && ldexp(args.cellWidth, int(level)) < 2.0 * reach) level++;
     mark(args.marks, query.position, args.cellWidth, level);

@@ -41,10 +41,12 @@ void main() {
     uint i = threadIndex() * args.stride;
     if (i >= args.count) return;
     vec3 position = PhotonPtr(args.map.photons).at[i].position;
-    float value = clamp(-logRadius(position), 0.0, float(args.map.levels));
+    float wanted = -logRadius(position);
+    float value = clamp(wanted, 0.0, float(args.map.levels));
 
     // Integers, so that the order of adding does not matter.
-    uint slot = fieldSlot(ivec3(floor(clamp(position * args.map.fieldPerUnit, -1.0e9, 1.0e9))), args.map.fieldMask);
+    uint slot = fieldSlot(args.map, ivec3(floor(clamp(position * args.map.fieldPerUnit, -1.0e9, 1.0e9))));
+    if (wanted >= float(args.map.levels + 1u)) atomicAdd(args.sums.at[2u * (args.map.partial != 0u ? NARROW_FIELD_CELLS : FIELD_CELLS)], 1u);
     atomicAdd(args.sums.at[2u * slot], uint(value * PILOT_UNIT + 0.5));
     atomicAdd(args.sums.at[2u * slot + 1u], 1u);
 }

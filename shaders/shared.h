@@ -476,8 +476,8 @@ struct PhotonMap {
     float radius; // the greatest
     float shrink; // gather within this part of the distance of the k-th nearest
     float photonFlux; // W per photon emitted
-    float fieldPerUnit;
-    uint fieldMask; // 0 if the radius is the same everywhere
+    float fieldPerUnit; // 0 if the radius is the same everywhere
+    uint partial;       // 1: of narrow discs alone; where the field is unknown, the next map answers
     uint kernel;    // KERNEL_...
     uint nearest;   // the radius is the distance of the k-th nearest; 0: not so
 };
@@ -486,11 +486,12 @@ struct PhotonMap {
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");
 #endif
 const uint MOST_LEVELS = 4u;
+const uint FIELD_CELLS = 1u << 16, NARROW_FIELD_CELLS = 1u << 20; // of a map, of one of narrow discs alone: hardly two share one
 const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
 
 struct PilotArgs {
     PhotonMap map;
-    PTR(uint) sums; // by cell of the field: negative logarithms, photons
+    PTR(uint) sums; // by cell of the field: negative logarithms, photons; then photons whose discs cannot be as narrow as they should
     uint count;
     uint stride; // one photon of so many is looked at
     float perDisc; // photons wanted
@@ -580,7 +581,7 @@ struct Query {
     vec3 position;
     vec3 normal; // geometric, on the side of the viewer
     vec3 weight;
-    uint column; // of the samples
+    uint column; // of the samples; NONE: a map of narrow discs has answered
     float footprint; // radius that a pixel covers there
 };
 BUFFER(Query)

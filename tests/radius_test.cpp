@@ -111,6 +111,31 @@ TEST(RadiusField, SpotsGetSmallRadiiAndWidePlacesWideOnes) {
     EXPECT_EQ(radii[3], 1.0f); // no photons
 }
 
+// Photons of a spot far narrower than a map's narrowest cells want another map, which knows of nothing but the spot.
+TEST(RadiusField, NarrowMapsAnswerWhereDiscsAreNarrow) {
+    const auto ratio = [](const std::vector<Photon>& photons, float widest, bool partial, const std::vector<vec3>& places, RadiusField& field) {
+        PhotonGrid grid(testGpu(), "test", 11);
+        const Buffer<Photon> buffer(testGpu(), "test photons", photons);
+        PhotonMap map = grid.build(buffer, static_cast<uint>(photons.size()), widest, 1, 3);
+        map.partial = partial;
+        field.measure(map, static_cast<uint>(photons.size()), 10);
+        field.apply(map);
+        return ::vkpm::map<float>("radius_at", places, {}, {.photons = map});
+    };
+    const std::vector<vec3> places{{0, 0, 0.1f}, {0.05f, -0.03f, 0.1f}, {3, 3, 0.1f}, {-3, 2, 0.1f}, {50, 50, 50}};
+    const std::vector<Photon> photons = plane(2000, 60'000, 1);
+    RadiusField wide(testGpu()), narrow(testGpu());
+    ratio(photons, 1, false, places, wide);
+    EXPECT_NEAR(wide.crowded, 0.97f, 0.02f);
+    const std::vector<float> radii = ratio(photons, 1.0f / 64, true, places, narrow);
+    EXPECT_NEAR(narrow.known, 0.97f, 0.02f);
+    EXPECT_LT(narrow.crowded, 0.01f);
+    const double expected = std::sqrt(10 * 0.04 / (pi * 60'000)); // of a disc that holds 10: 0.0015
+    EXPECT_LT(radii[0], 2.5 * expected);                          // an eighth of the widest is the least there is: 0.002
+    EXPECT_NEAR(radii[0], radii[1], 0.3 * radii[0]);
+    EXPECT_EQ((std::vector<float>{radii.begin() + 2, radii.end()}), std::vector<float>(3, 0.0f));
+}
+
 TEST(RadiusField, ScalesWithTheScene) {
     const std::vector<vec3> places{{0, 0, 0.1f}, {0.3f, -0.2f, 0.1f}, {3, 3, 0.1f}, {-1, 2, 0.1f}};
     const auto tame = measuredRadii(plane(20'000, 3000, 1), 10, places);

@@ -276,6 +276,13 @@ def same_means(found: Render, expected: Render, tolerance: float, layers: tuple 
     return f"{percent(differences[worst])} ({worst})", abs(differences[worst]) <= tolerance
 
 
+def same_pixels(found: Render, expected: Render, layer: str, tolerance: float) -> tuple[str, bool]:
+    """Whether a layer's relative mean square error is below a tolerance."""
+    truth = expected.layer(layer)
+    error = float(((found.layer(layer) - truth) ** 2 / (truth ** 2 + 0.01)).mean())
+    return f"relMSE {error:.1g}", error <= tolerance
+
+
 def against_path(lab: Lab, scene: Scene, tolerance: float, tame: Scene = BOX, passes: str = "128",
                  layers: tuple = ("beauty",)) -> Verdict:
     """The photon mapper's means against the path tracer's, as parts of the whole."""

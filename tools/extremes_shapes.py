@@ -2,7 +2,7 @@
 
 import math
 
-from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, plus, rectangle, same_means, sphere,
+from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, plus, rectangle, same_means, same_pixels, sphere,
                           without)
 
 
@@ -61,6 +61,32 @@ def spheres(lab: Lab) -> Verdict:
     scene = plus(without(BOX, "floor"), sphere([0, -1 - 1e6, 0], 1e6, material="white"), sphere([0, 0, 0], 1e-6, material="mirror"),
                  sphere([0.3, 0.2, 0], 1e-6, material="glass"))
     return against_path(lab, scene, 0.02)
+
+
+def marble(radius: float, room: float) -> Scene:
+    """A glass ball on the floor of a room, seen from nearby, under a lamp by the ceiling."""
+    def wall(corner: list, u: list, v: list, **rest: object) -> Scene:
+        return rectangle([room * x for x in corner], [room * x for x in u], [room * x for x in v], **rest)
+    walls = [wall([-0.5, 0, 0.5], [1, 0, 0], [0, 0, -1], material="white"), wall([-0.5, 0, -0.5], [1, 0, 0], [0, 0.6, 0], material="white"),
+             wall([-0.5, 0, 0.5], [0, 0, -1], [0, 0.6, 0], material="white"), wall([0.5, 0, -0.5], [0, 0, 1], [0, 0.6, 0], material="white"),
+             wall([-0.5, 0.6, -0.5], [1, 0, 0], [0, 0, 1], material="white"),
+             wall([-0.2, 0.58, -0.03], [0.06, 0, 0], [0, 0, 0.06], emission=[50, 50, 50])]
+    camera = {"origin": [6 * radius, 7 * radius, 14 * radius], "target": [radius, 0, 0], "fieldOfView": 30}
+    return changed(BOX, camera=camera, shapes=[*walls, sphere([0, radius, 0], radius, material="glass")])
+
+
+def by_marble(radius: float, room: float) -> None:
+    """Caustics of small things in large rooms."""
+    @case("shape", f"a marble of radius {radius:g} in a room of {room:g}", "the caustic of light tracing, relMSE below 10^-3")
+    def judge(lab: Lab) -> Verdict:
+        options = "--layers", "caustic", "--caustic-photons", "50000", "--passes"
+        render = lab.render(marble(radius, room), *options, "16")
+        truth = lab.render(marble(radius, room), "--integrator", "light", *options, "120")
+        return Verdict(render, lab.render(marble(room / 50, room), *options, "16"), *same_pixels(render, truth, "caustic", 1e-3), work=1.5)
+
+
+for case_of in ((0.02, 5), (0.0005, 0.5), (0.01, 50)):
+    by_marble(*case_of)
 
 
 @case("shape", "a mesh of one triangle", "mean of the path tracer within 2 %")

@@ -34,9 +34,8 @@ void CameraPaths::castShadowRays(Recording& recording) {
     if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue, compaction.list, size});
 }
 
-/// Answers the questions of a queue to its map, or marks where they were asked.
-void CameraPaths::askMap(Recording& recording, const Wave& wave, uint kind) {
-    const PhotonMap& map = kind == QUEUE_CAUSTIC ? wave.maps.caustic : wave.maps.global;
+/// Answers the questions of a queue to a map, or marks where they were asked.
+void CameraPaths::askMap(Recording& recording, const Wave& wave, uint kind, const PhotonMap& map) {
     if (map.radius == 0) return;
     const Ptr<Queue> queue{compaction.queues.address + kind * sizeof(Queue)};
     if (!wave.maps.marks) {
@@ -58,8 +57,9 @@ void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
     compaction.compact(recording);
 
     castShadowRays(recording);
-    askMap(recording, wave, QUEUE_CAUSTIC);
-    askMap(recording, wave, QUEUE_GLOBAL);
+    for (const PhotonMap& narrow : wave.maps.narrow) askMap(recording, wave, QUEUE_CAUSTIC, narrow);
+    askMap(recording, wave, QUEUE_CAUSTIC, wave.maps.caustic);
+    askMap(recording, wave, QUEUE_GLOBAL, wave.maps.global);
 }
 
 /// Batches of bounces, until the device says that no path is left.

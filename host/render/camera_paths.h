@@ -21,6 +21,7 @@ struct EyeMarks {
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};
+    std::vector<PhotonMap> narrow{}; // of caustics, asked first: the narrowest discs first
     float nearDistance = 0; // a gather ray shorter than this goes on
     const EyeMarks* marks = nullptr; // the places are marked there, and nothing is gathered
 };
@@ -57,7 +58,7 @@ private:
         const PhotonMaps& maps;
     };
     void castShadowRays(Recording& recording);
-    void askMap(Recording& recording, const Wave& wave, uint queue);
+    void askMap(Recording& recording, const Wave& wave, uint queue, const PhotonMap& map);
     void bounce(Recording& recording, const Wave& wave, uint bounce);
     RayCounts follow(Recording& recording, const Wave& wave, uint bounce);
 

@@ -34,7 +34,7 @@ EyePlaces::EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& featu
     Recording recording(gpu);
     for (EyeMarks::Map* map : {&marks.global, &marks.caustic}) {
         map->bits = Buffer<uint>(gpu, "eye marks", MARK_WORDS + 1);
-        map->cellWidth = finestCells(map == &marks.global ? maps.global : maps.caustic);
+        map->cellWidth = finestCells(map == &marks.global ? maps.global : maps.narrow.empty() ? maps.caustic : maps.narrow.front());
         recording.clear(map->bits);
     }
     recording.submit();

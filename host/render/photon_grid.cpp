@@ -5,8 +5,8 @@
 
 namespace vkpm {
 
-PhotonGrid::PhotonGrid(Gpu& device, std::string label)
-    : gpu(device), name(std::move(label)), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells"), crowded(gpu, name + " crowded", std::vector<uint>{0}) {}
+PhotonGrid::PhotonGrid(Gpu& device, std::string label, uint bits)
+    : gpu(device), name(std::move(label)), blockBits(bits), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells"), crowded(gpu, name + " crowded", std::vector<uint>{0}) {}
 
 /// Whether the last cells written were.
 bool PhotonGrid::isCrowded() {
@@ -32,7 +32,7 @@ void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint mask, uint
 
 PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels, std::optional<uint> pass) {
     // Some keys for each photon, so that few cells share one; at least a block's and, if its cells are split, some blocks.
-    const uint least = levels == 0 ? 3 : 3 * (levels + 1) + 6;
+    const uint least = levels == 0 ? 3 : 3 * (levels + 1) + blockBits;
     const uint bits = std::clamp(static_cast<uint>(std::bit_width(count)) + 2, least, 26u);
     const uint mask = (1u << bits) - 1;
     const float cellsPerUnit = 1 / (2.1f * radius);

@@ -8,7 +8,8 @@ namespace vkpm {
 /// Photons in the order of their grid cells, for gathers within a radius.
 class PhotonGrid {
 public:
-    PhotonGrid(Gpu& gpu, std::string name);
+    /// Where cells are split, keys have at least `blockBits` bits for the block.
+    PhotonGrid(Gpu& gpu, std::string name, uint blockBits = 6);
 
     /// Sorts the first `count` of `photons` into cells for gathers within `radius`.
     /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of a pass,
@@ -30,6 +31,7 @@ private:
 
     Gpu& gpu;
     std::string name;
+    uint blockBits;
     Sort sort;
     Buffer<Photon> arranged;
     Buffer<uint> cells;

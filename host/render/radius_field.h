@@ -11,7 +11,8 @@ public:
     explicit RadiusField(Gpu& gpu);
 
     /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius, none
-    /// narrower than that over 2^levels. One photon of `stride` is looked at.
+    /// narrower than that over 2^levels. One photon of `stride` is looked at. If the map is partial, the field is unknown but where
+    /// most photons want radii below the map's.
     void measure(const PhotonMap& pilot, uint count, float perDisc, uint stride = 1);
     /// Makes gathers in a map use the field.
     void apply(PhotonMap& map) const;
@@ -20,10 +21,14 @@ public:
     float smallest = 0;
     float median = 0;
     float greatest = 0;
+    /// Parts of the photons: those where the field is known; those that want less than half of the narrowest radius.
+    float known = 0;
+    float crowded = 0;
 
 private:
     Gpu& gpu;
     float cellsPerUnit = 0;
+    bool partial = false;
     Buffer<float> values;
     Kernel<PilotArgs> pilotKernel;
 };

@@ -1,6 +1,7 @@
 /// Stages and their order.
 #include "render/renderer.h"
 #include <algorithm>
+#include <ranges>
 
 namespace vkpm {
 
@@ -18,6 +19,12 @@ const float nearRadii = 3;
 // of few photons averages out; caustics are looked at directly.
 const float globalPhotonsPerDisc = 40;
 const float causticPhotonsPerDisc = 10;
+
+// Part of the photons of caustics that must want discs less than half as wide as a map can have for it to get another of narrower ones.
+const float partForNarrow = 0.1f;
+
+// How often its cells are split at most, and bits of keys for their blocks: the few that are crowded should share keys with no others.
+const uint narrowLevels = 3, narrowBlockBits = 11;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waveSizes)
     : Renderer(device, input, set, sceneFeatures(input, set), waveSizes) {}
@@ -120,7 +127,34 @@ void Renderer::measureRadii(MapStages& stages) {
     if (oneRadius) {
         stages.radius = stages.typicalRadius();
         stages.field.reset();
+        return;
     }
+
+    // Discs of caustics go as far down as their photons want.
+    stages.narrow.clear();
+    float crowded = stages.field->crowded, narrowest = std::ldexp(stages.radius, -static_cast<int>(levels));
+    const auto finerLevels = [&] { return std::min(mostLevels(lit, narrowest), narrowLevels); };
+    uint finer = finerLevels();
+    for (; crowded > partForNarrow && finer > 0; finer = finerLevels()) {
+        NarrowMap& next = stages.narrow.emplace_back(NarrowMap{PhotonGrid(gpu, "narrow caustic map", narrowBlockBits), RadiusField(gpu), narrowest});
+        PhotonMap map = next.grid.build(stages.tracing.photons, stored, narrowest, stages.flux, finer);
+        map.partial = 1;
+        next.field.measure(map, stored, perDisc);
+        crowded = next.field.crowded;
+        narrowest = std::ldexp(narrowest, -static_cast<int>(finer));
+    }
+    stages.roundingBinds = crowded > partForNarrow;
+}
+
+float MapStages::typicalRadius() const {
+    const auto typical = std::ranges::find_if(narrow.rbegin(), narrow.rend(), [](const NarrowMap& map) { return map.field.known > 0.5f; });
+    if (typical != narrow.rend()) return typical->radius * std::exp2(typical->field.median);
+    return field ? radius * std::exp2(field->median) : radius;
+}
+
+float MapStages::smallestRadius() const {
+    if (!narrow.empty()) return narrow.back().radius * std::exp2(narrow.back().field.smallest);
+    return field ? radius * std::exp2(field->smallest) : radius;
 }
 
 /// A map as gathers see it, but for its photons.
@@ -129,6 +163,17 @@ static PhotonMap mapOf(const std::optional<MapStages>& stages) {
     PhotonMap map{.levels = stages->levels(), .radius = stages->radius};
     if (stages->field) stages->field->apply(map);
     return map;
+}
+
+/// The maps of narrow discs, but for their photons, the narrowest first.
+static std::vector<PhotonMap> narrowMapsOf(const std::optional<MapStages>& stages) {
+    std::vector<PhotonMap> maps;
+    if (!stages) return maps;
+    for (const NarrowMap& narrow : stages->narrow | std::views::reverse) {
+        maps.push_back({.levels = narrow.levels(), .radius = narrow.radius});
+        narrow.field.apply(maps.back());
+    }
+    return maps;
 }
 
 /// Learns where to send photons, once for a view. Each stage is either as it was or done when a render is cancelled.
@@ -148,7 +193,7 @@ void Renderer::guidePhotons() {
     const bool weighs = guideNeeds.lights && !weighed && asksLights(eyeHas, settings);
     if (weighs || std::ranges::any_of(maps, learns)) {
         measure();
-        const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic)});
+        const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic), narrowMapsOf(caustic)});
         for (std::optional<MapStages>* stages : maps)
             if (learns(stages)) (*stages)->follow(learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
         if (weighs) scene.chooseLights(learnLights(gpu, scene, eyeHas, settings.seed, places, lightCdf));
@@ -192,6 +237,11 @@ PhotonLedger Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     stages->map.kernel = settings.kernel;
     stages->map.nearest = settings.nearest;
     if (stages->field) stages->field->apply(stages->map);
+    for (NarrowMap& narrow : stages->narrow) {
+        narrow.map = narrow.grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), narrow.radius * factor, stages->flux, narrow.levels(), thinned);
+        narrow.map.kernel = settings.kernel;
+        narrow.field.apply(narrow.map);
+    }
     stages->built = pass;
     return ledger;
 }
@@ -201,7 +251,9 @@ void Renderer::renderPass(uint pass) {
     const PhotonLedger ofGlobal = buildMap(global, pass), ofCaustic = buildMap(caustic, pass);
     const PhotonLedger ofLight = light ? light->trace(pass) : PhotonLedger{};
     const float nearDistance = global ? nearRadii * global->typicalRadius() * radiusFactor(pass, settings.alpha) : 0;
-    const PhotonMaps maps{global ? global->map : PhotonMap{}, caustic ? caustic->map : PhotonMap{}, nearDistance};
+    PhotonMaps maps{.global = global ? global->map : PhotonMap{}, .caustic = caustic ? caustic->map : PhotonMap{}, .nearDistance = nearDistance};
+    if (caustic)
+        for (const NarrowMap& narrow : caustic->narrow | std::views::reverse) maps.narrow.push_back(narrow.map);
 
     const uint pixels = settings.size.x * settings.size.y;
     if (!taken) film.begin(pass), taken = 0;

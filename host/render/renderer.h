@@ -13,6 +13,16 @@
 
 namespace vkpm {
 
+/// The photons of a map once more, in cells for discs narrower than its own. It answers where most photons want such discs.
+struct NarrowMap {
+    PhotonGrid grid;
+    RadiusField field;
+    float radius; // of the first pass, the widest
+    PhotonMap map{};
+
+    uint levels() const { return static_cast<uint>(-field.smallest); }
+};
+
 /// A photon map that is made anew for each pass.
 struct MapStages {
     MapKind kind;
@@ -22,6 +32,8 @@ struct MapStages {
     float radius;                       // of the first pass, the widest
     bool chooses;                       // whether the program chooses it
     std::optional<RadiusField> field{}; // where it is less, if the program chooses
+    std::vector<NarrowMap> narrow{};    // where it is less than the cells of one map can be, the narrowest last
+    bool roundingBinds = false;         // whether discs would be narrower still but for the rounding of coordinates
     bool measured = false;              // whether radii are those of the photons now
     std::optional<Guide> guide{};       // once it is learned
     PhotonLedger ledger{};
@@ -29,8 +41,10 @@ struct MapStages {
     std::optional<uint> built{}; // pass whose map this is
 
     /// That of most photons in the first pass.
-    float typicalRadius() const { return field ? radius * std::exp2(field->median) : radius; }
-    /// How often cells are split for the narrowest radii.
+    float typicalRadius() const;
+    /// The least one in the first pass.
+    float smallestRadius() const;
+    /// How often cells are split for the narrowest radii, but for those of narrow maps.
     uint levels() const { return field ? static_cast<uint>(-field->smallest) : 1; }
 
     /// Starts photons by a guide from now on.
