@@ -1,21 +1,21 @@
-// Direct light at a point of a diffuse surface; needs light.glsl, seen.glsl, offset.glsl and features.glsl.
+// Direct light at a point of a diffuse surface; needs light.glsl, seen.glsl, offset.glsl, terminator.glsl and features.glsl.
 
 // A shadow ray to a point of a light that was chosen with a probability, and what it brings if nothing is in its way: the radiance
 // that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts at `origin`, on the side of
 // `normal`, which is the geometric one.
-ShadowRay sampleDirectOf(Light light, float probability, vec3 origin, uint from, vec3 normal, vec3 shading, vec3 weight, uint column, vec2 place) {
+ShadowRay sampleDirectOf(Light light, float probability, vec3 origin, uint from, vec3 normal, vec3 shading, float bulge, vec3 weight, uint column, vec2 place) {
     SeenPoint seen = seenPoint(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);
-    float cosine = dot(w, normal) > 0.0 ? max(0.0, dot(w, shading)) : 0.0;
+    float cosine = cosineOfArrival(w, normal, shading, bulge);
     vec3 radiance = emittedRadiance(light, seen.point.normal, -w) * (cosine * seen.solidAngle / (PI * probability)) * weight;
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
-    return ShadowRay(origin, from, offsetPoint(seen.point.position, seen.point.magnitude, lightSide), radiance, column);
+    return ShadowRay(origin, from, offsetPoint(seen.point.position, seen.point.magnitude, lightSide), radiance, column, uint(goesThrough(w, normal, bulge)));
 }
 
 // That of a light chosen for light samples.
-ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, vec3 shading, vec3 weight, uint column, vec2 choice, vec2 place) {
+ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, vec3 shading, float bulge, vec3 weight, uint column, vec2 choice, vec2 place) {
     uint chosen = chooseLight(scene, scene.directCdf, choice.x);
     Light light = LightPtr(scene.lights).at[chosen];
     requireLight(scene, light);
-    return sampleDirectOf(light, lightProbability(scene.directCdf, chosen), origin, from, normal, shading, weight, column, place);
+    return sampleDirectOf(light, lightProbability(scene.directCdf, chosen), origin, from, normal, shading, bulge, weight, column, place);
 }

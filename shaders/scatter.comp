@@ -11,6 +11,7 @@
 #include "sphere.glsl"
 #include "surface.glsl"
 #include "material.glsl"
+#include "terminator.glsl"
 #include "features.glsl"
 
 ARGS(ScatterArgs)
@@ -35,19 +36,49 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
     return survives(path, event.weight, specularSurvival(event.weight, run), u.y) ? FATE_GOES_ON : FATE_ABSORBED;
 }
 
-// The photon as the map keeps it. Its flux makes up for a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
-Photon photonAt(inout Path path, Surface surface, vec3 normal) {
+// The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for a shading normal
+// that is not the geometric one (Veach 1997, eq. 5.19).
+Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
     if (hasSmoothNormals != 0u) {
         vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
-        path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
+        if (bulge == 0.0) path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
+        else path.throughput *= cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
     }
     return Photon(surface.position, path.throughput, packUnit(normal));
 }
 
-uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, Sampler s) {
-    if (!survives(path, material.color, maxComponent(material.color), sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
+uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, float survival, Sampler s) {
+    if (!survives(path, material.color, survival, sample2(s, 4u * args.bounce + 5u).y)) return FATE_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
     path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, path.flags & ~PATH_SPECULARS);
+    return FATE_GOES_ON;
+}
+
+// A photon that comes to lie on a smooth mesh is one that lies where it leaves the mesh too, if its path would go on: there light
+// arrives that the triangles before keep away. Those that the first place absorbs stand for all.
+const float MOST_SURVIVAL = 0.8; // some always go through
+
+// At a diffuse surface; a photon may arrive there, as `photon`, and the path goes on with the fate returned.
+uint arriveAtDiffuse(inout Path path, Material material, Surface surface, Sampler s, out Photon photon) {
+    bool through = hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u;
+    bool behind = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = behind != through ? -surface.normal : surface.normal;
+    float bulge = behind != through ? -surface.bulge : surface.bulge;
+    photon = Photon(vec3(0.0), vec3(0.0), 0u);
+    if (through && bulge <= 0.0) return FATE_ABSORBED;
+    path.flags &= ~PATH_THROUGH;
+
+    Path passing = path;
+    photon = photonAt(path, surface, normal, bulge);
+    if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
+    else if (through) return FATE_ABSORBED;
+    float survival = maxComponent(material.color);
+    bool passes = hasSmoothDiffuse != 0u && bulge != 0.0 && !through;
+    if (passes) survival = min(survival, MOST_SURVIVAL);
+    if (args.caustic != 0u) survival = 0.0;
+    uint fate = args.caustic != 0u ? FATE_ABSORBED : scatterAtDiffuse(path, material, surface, normal, survival, s);
+    if (!passes || fate == FATE_GOES_ON) return fate;
+    path = Path(leave(surface, passing.direction), passing.direction, passing.throughput / (1.0 - survival), 0.0, surface.primitive, path.flags | PATH_THROUGH);
     return FATE_GOES_ON;
 }
 
@@ -57,24 +88,25 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
     Path path = args.paths.at[slot];
     Hit hit = args.hits.at[slot];
     arrives = false;
-    if (hit.primitive == NONE) return FATE_ESCAPED;
+    bool through = hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u;
+    if (hit.primitive == NONE) return through ? FATE_ABSORBED : FATE_ESCAPED;
 
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
     uint fate;
+    if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return FATE_ABSORBED;
     if (!isDiffuse(material)) {
         fate = scatterAtSpecular(path, material, surface, s);
     } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
         return FATE_ESCAPED; // aimed at a specular shape, but not one that it hit
     } else {
-        vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
-        Photon photon = photonAt(path, surface, normal);
+        uint index = path.flags >> PATH_DIFFUSE_SHIFT;
+        Photon photon;
+        fate = arriveAtDiffuse(path, material, surface, s, photon);
         arrives = maxComponent(photon.color) > 0.0;
-        arrival = Arrival(photon, slot, path.flags >> PATH_DIFFUSE_SHIFT);
-        if (arrives) path.flags += 1u << PATH_DIFFUSE_SHIFT;
-        fate = args.caustic != 0u ? FATE_ABSORBED : scatterAtDiffuse(path, material, surface, normal, s);
+        arrival = Arrival(photon, slot, index);
     }
     if (fate == FATE_GOES_ON) args.paths.at[slot] = path;
     return fate;

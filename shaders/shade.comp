@@ -16,6 +16,7 @@
 #include "seen.glsl"
 #include "columns.glsl"
 #include "features.glsl"
+#include "terminator.glsl"
 #include "direct.glsl"
 
 ARGS(ShadeArgs)
@@ -49,11 +50,12 @@ void seeLight(uint slot, Path path, Light light, vec3 normal) {
 }
 
 // Asks for one light sample.
-bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight, Sampler s) {
+bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight, Sampler s) {
     uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return false;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
-    ShadowRay ray = sampleDirect(scene, origin, surface.primitive, normal, shading, weight, layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    ShadowRay ray = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight, layerColumn(layer), bounceSample(s, 0u),
+        bounceSample(s, 1u));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
@@ -68,10 +70,11 @@ uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3
 }
 
 // Lets light samples and gather rays start here, if anyone asks for what they find.
-void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, vec3 weight) {
+void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
     if ((hasDirectLayer | hasSpecularLayer | hasIndirectLayer) == 0u || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
-    args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags);
+    args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags,
+        bulge);
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
@@ -82,13 +85,14 @@ bool goesOn(Path path) {
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
-bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, vec3 albedo, Sampler s) {
+bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 albedo, Sampler s) {
     uint diffuse = (path.flags >> PATH_DIFFUSE_SHIFT) + 1u;
     float survival = diffuse > 2u ? maxComponent(albedo) : 1.0;
     if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return false;
     vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
-    if (dot(direction, normal) <= 0.0) return false;
+    if (!departs(direction, normal, bulge)) return false;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
+    if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
     path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput * albedo / survival, 0.0,
         surface.primitive, flags);
     return true;
@@ -111,6 +115,7 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind ? -surface.normal : surface.normal;
     vec3 shading = behind ? -surface.shading : surface.shading;
+    float bulge = behind ? -surface.bulge : surface.bulge;
     bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
     vec3 weight = path.throughput * albedo;
 
@@ -123,11 +128,11 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
 
     bool splits = chosen() == INTEGRATOR_PHOTON && first;
     uint queues = 0u;
-    if (!splits && askLight(scene, slot, path, surface, normal, shading, weight, s)) queues |= 1u << QUEUE_SHADOW;
+    if (!splits && askLight(scene, slot, path, surface, normal, shading, bulge, weight, s)) queues |= 1u << QUEUE_SHADOW;
     if (chosen() == INTEGRATOR_PHOTON && showsCaustics())
         queues |= askMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    if (splits) split(slot, path, surface, normal, shading, weight);
-    else if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    if (splits) split(slot, path, surface, normal, shading, bulge, weight);
+    else if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, bulge, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }
 
@@ -153,6 +158,11 @@ uint shade(uint slot) {
             args.samples.at[COLUMN_DEPTH * args.stride + slot] = scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
             args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
         }
+    }
+    if (hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u) {
+        if (surface.bulge == 0.0 || !isDiffuse(material)) return 0u;
+        args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput, travelled, surface.primitive, path.flags & ~PATH_THROUGH);
+        return 1u << QUEUE_CONTINUE;
     }
     if (surface.light != NONE && chosen() != INTEGRATOR_PHOTON_MAP)
         seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);

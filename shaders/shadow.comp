@@ -15,5 +15,5 @@ void main() {
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
     ShadowRay ray = args.shadowRays.at[slot];
-    if (!occluded(args.scene.at[0], ray.origin, ray.target, ray.from)) addToColumns(args.samples, args.stride, ray.column, slot, ray.radiance);
+    if (!hidden(args.scene.at[0], ray)) addToColumns(args.samples, args.stride, ray.column, slot, ray.radiance);
 }

@@ -80,7 +80,8 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(30, hasBias, 1)                                                                                                  \
     X(31, checksFeatures, 0) /* kernels report what they meet and are without, see features.glsl */                    \
     X(32, hasFarLights, 2) /* 1: only one, that nothing hides */                                                       \
-    X(33, hasGuide, 1)
+    X(33, hasGuide, 1)                                                                                                 \
+    X(34, hasSmoothDiffuse, 1)
 
 #ifdef __cplusplus
 struct Features {
@@ -316,7 +317,8 @@ struct Path {
 const uint PATH_EYE_SPECULAR = 1u;                  // eye: the first vertex was specular
 const uint PATH_SPECULAR = 2u;                      // one specular vertex since the last diffuse one
 const uint PATH_SPECULARS = 63u * PATH_SPECULAR;    // all of these that are counted
-const uint PATH_DIFFUSE_SHIFT = 7u;
+const uint PATH_THROUGH = 1u << 7;                  // goes through a smooth mesh, see terminator.glsl
+const uint PATH_DIFFUSE_SHIFT = 8u;
 BUFFER(Path)
 
 /// Where a ray ends: distance in units of its direction's length, primitive or NONE, barycentric weights of b and c.
@@ -573,6 +575,7 @@ struct ShadowRay {
     vec3 target;
     vec3 radiance;
     uint column; // of the samples, to which the radiance is added
+    uint through; // 1: through a smooth mesh, see terminator.glsl
 };
 BUFFER(ShadowRay)
 
@@ -594,6 +597,7 @@ struct Split {
     vec3 throughput; // of all gather rays together, the albedo included
     uint from;       // primitive that the rays leave
     uint flags;      // as in Path; NONE: there is no such point
+    float bulge;     // on the side of the normal, see terminator.glsl
 };
 BUFFER(Split)
 

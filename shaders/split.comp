@@ -11,6 +11,7 @@
 #include "seen.glsl"
 #include "columns.glsl"
 #include "features.glsl"
+#include "terminator.glsl"
 #include "direct.glsl"
 
 ARGS(SplitArgs)
@@ -18,7 +19,7 @@ ARGS(SplitArgs)
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, args.share * from.throughput,
+    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge, args.share * from.throughput,
         layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
@@ -27,8 +28,9 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
 bool sendGatherRay(uint slot, Split from, Sampler s) {
     if (hasGlobalMap == 0u || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT)) return false;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
-    if (dot(direction, from.normal) <= 0.0) return false;
-    args.paths.at[slot] = Path(from.origin, direction, args.share * from.throughput, 0.0, from.from, from.flags);
+    if (!departs(direction, from.normal, from.bulge)) return false;
+    uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
+    args.paths.at[slot] = Path(from.origin, direction, args.share * from.throughput, 0.0, from.from, flags);
     return true;
 }
 

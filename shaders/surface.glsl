@@ -8,6 +8,7 @@ struct Surface {
     uint material;
     uint light;
     uint primitive;
+    float bulge;    // on the side of the geometric normal: 0 if shading is flat; see terminator.glsl
 };
 
 Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
@@ -18,12 +19,18 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     vec3 c = weights.y * p.c;
     vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
     vec3 shading = normal;
+    float bulge = 0.0;
     if (hasSmoothNormals != 0u && p.normals != NONE) {
         Normals n = NormalsPtr(scene.normals).at[p.normals];
         shading = normalize(first * n.a + weights.x * n.b + weights.y * n.c);
-        if (dot(shading, normal) < 0.0) shading = -shading;
+        bool turned = dot(shading, normal) < 0.0;
+        if (turned) shading = -shading;
+        if (hasSmoothDiffuse != 0u) {
+            bulge = dot(n.b - n.a, p.b - p.a) + dot(n.c - n.b, p.c - p.b) + dot(n.a - n.c, p.a - p.c);
+            bulge = bulge < 0.0 == turned ? 1.0 : -1.0;
+        }
     }
-    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive);
+    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive, bulge);
 }
 
 // The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t; needs sphere.glsl.
@@ -32,7 +39,7 @@ Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
     float distance = length(f);
     vec3 normal = f / distance;
     vec3 position = along - spherePower(along, p.a, p.c) / (distance + p.b.x) * normal;
-    return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive);
+    return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive, 0.0);
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {

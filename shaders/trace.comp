@@ -13,5 +13,9 @@ void main() {
     Queue queue = args.queue.at[0];
     if (threadIndex() >= queue.count) return;
     uint slot = args.list.at[queue.first + threadIndex()];
-    args.hits.at[slot] = closest(args.scene.at[0], args.paths.at[slot].origin, args.paths.at[slot].direction, args.paths.at[slot].from);
+    vec3 origin = args.paths.at[slot].origin;
+    vec3 direction = args.paths.at[slot].direction;
+    uint from = args.paths.at[slot].from;
+    if (hasSmoothDiffuse != 0u && (args.paths.at[slot].flags & PATH_THROUGH) != 0u) origin = beneath(args.scene.at[0], origin, direction, from);
+    args.hits.at[slot] = closest(args.scene.at[0], origin, direction, from);
 }

@@ -25,9 +25,21 @@ float slackOf(DeviceScene scene, Ray ray, uint id) {
     return (2.0 * roundingAlong(magnitude, normal) + roundings * maxComponent(magnitude)) / max(abs(dot(ray.direction, normal)), 1e-30);
 }
 
+// Triangles of smooth diffuse meshes that a ray to a light may go through, and has gone through; see terminator.glsl.
+struct Passage {
+    bool allowed;
+    uint triangles;
+};
+
+bool isSmoothDiffuse(DeviceScene scene, uint id) {
+    if (id >= scene.triangleCount || PrimitivePtr(scene.primitives).at[id].normals == NONE) return false;
+    return MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind == MATERIAL_DIFFUSE;
+}
+
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
-void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit, inout Contact contact) {
+void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit, inout Contact contact,
+    inout Passage passage) {
     uint id = LeafPtr(scene.leaves).at[slot].id;
     vec2 weights = vec2(0.0);
     float t;
@@ -44,6 +56,10 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
     if (!(t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive)))) return;
+    if (any && hasSmoothDiffuse != 0u && passage.allowed && isSmoothDiffuse(scene, id)) {
+        passage.triangles++;
+        return;
+    }
     if (any || !canTouch() || id >= scene.triangleCount || !isGlass(scene, id)) {
         hit = Hit(t, id, weights);
     } else if (t < contact.glass.t || (t == contact.glass.t && id < contact.glass.primitive)) {
@@ -59,7 +75,7 @@ float reach(Hit hit, Contact contact) {
 
 // Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
 // registers, newest first; when a ninth comes the older four move to memory, together, as each move there costs what a node does.
-Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) {
+Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, inout Passage passage) {
     uint memory[stackSize];
     uint moved = 0u; // how many are in memory
     uvec4 newer = uvec4(0u);
@@ -95,7 +111,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
         }
         // One primitive of a leaf at a time: for lanes that diverge a loop of its own costs more than it saves.
         if (!finished && (node & LEAF) != 0u) {
-            intersectLeaf(scene, ray, from, node & LEAF_FIRST, any, hit, contact);
+            intersectLeaf(scene, ray, from, node & LEAF_FIRST, any, hit, contact, passage);
             if (any && hit.primitive != NONE) break;
             if ((node & ~LEAF) >> LEAF_SHIFT != 0u) node += 1u - (1u << LEAF_SHIFT);
             else finished = true;
@@ -119,10 +135,29 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any) 
 
 // The closest hit with t > 0 of a ray that leaves the primitive `from`, or NONE.
 Hit closest(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
-    return traverse(scene, makeRay(origin, direction), from, INFINITY, false);
+    Passage none = Passage(false, 0u);
+    return traverse(scene, makeRay(origin, direction), from, INFINITY, false, none);
 }
 
 // Whether anything stands between two points.
 bool occluded(DeviceScene scene, vec3 origin, vec3 target, uint from) {
-    return traverse(scene, makeRay(origin, target - origin), from, 1.0, true).primitive != NONE;
+    Passage none = Passage(false, 0u);
+    return traverse(scene, makeRay(origin, target - origin), from, 1.0, true, none).primitive != NONE;
+}
+
+// The origin of a ray that goes through the triangle that it leaves, on the other side of it.
+vec3 beneath(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
+    Primitive p = PrimitivePtr(scene.primitives).at[from];
+    vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
+    vec3 side = dot(direction, normal) < 0.0 ? -normal : normal;
+    vec3 magnitude = abs(p.a) + abs(p.b) + abs(p.c);
+    return offsetPoint(offsetPoint(origin, magnitude, side), magnitude, side);
+}
+
+// Whether a light sample is hidden.
+bool hidden(DeviceScene scene, ShadowRay ray) {
+    Passage passage = Passage(hasSmoothDiffuse != 0u && ray.through != 0u, 0u);
+    if (passage.allowed) ray.origin = beneath(scene, ray.origin, ray.target - ray.origin, ray.from);
+    bool hit = traverse(scene, makeRay(ray.origin, ray.target - ray.origin), ray.from, 1.0, true, passage).primitive != NONE;
+    return hit || (passage.allowed && passage.triangles != 1u);
 }

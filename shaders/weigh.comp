@@ -9,6 +9,7 @@
 #include "light.glsl"
 #include "seen.glsl"
 #include "features.glsl"
+#include "terminator.glsl"
 #include "direct.glsl"
 #include "sphere.glsl"
 #include "intersect.glsl"
@@ -24,7 +25,7 @@ void main() {
     args.values.at[i] = 0.0;
     if (from.flags == NONE) return;
     Sampler s = pixelSampler(i, 0u, args.seed, SAMPLES_EYE);
-    ShadowRay ray = sampleDirectOf(LightPtr(scene.lights).at[i % scene.lightCount], 1.0, from.origin, from.from, from.normal, from.shading,
+    ShadowRay ray = sampleDirectOf(LightPtr(scene.lights).at[i % scene.lightCount], 1.0, from.origin, from.from, from.normal, from.shading, from.bulge,
         from.throughput, 0u, sample2(s, 0u));
-    if (luminance(ray.radiance) > 0.0 && !occluded(scene, ray.origin, ray.target, ray.from)) args.values.at[i] = luminance(ray.radiance);
+    if (luminance(ray.radiance) > 0.0 && !hidden(scene, ray)) args.values.at[i] = luminance(ray.radiance);
 }

@@ -96,7 +96,7 @@ TEST(Features, LeavingOutWhatASceneNeedsIsFoundOut) {
         EXPECT_NO_THROW(renderWithout(scene, nullptr)) << name;
         uint tried = 0;
         for (const auto& [label, feature] : std::initializer_list<std::pair<const char*, uint Features::*>>{
-                 {"hasTriangles", &Features::hasTriangles}, {"hasSpheres", &Features::hasSpheres}, {"hasSmoothNormals", &Features::hasSmoothNormals},
+                 {"hasTriangles", &Features::hasTriangles}, {"hasSpheres", &Features::hasSpheres}, {"hasSmoothNormals", &Features::hasSmoothNormals}, {"hasSmoothDiffuse", &Features::hasSmoothDiffuse},
                  {"hasDiffuse", &Features::hasDiffuse}, {"hasMirror", &Features::hasMirror}, {"hasGlass", &Features::hasGlass}, {"hasTint", &Features::hasTint},
                  {"hasExactFresnel", &Features::hasExactFresnel}, {"hasManyLights", &Features::hasManyLights},
                  {"hasRectangleLights", &Features::hasRectangleLights}, {"hasTriangleLights", &Features::hasTriangleLights},

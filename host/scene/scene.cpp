@@ -74,6 +74,9 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasTriangles = scene.triangleCount > 0;
     features.hasSpheres = scene.primitives.size() > scene.triangleCount;
     features.hasSmoothNormals = !scene.normals.empty();
+    features.hasSmoothDiffuse = std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
+        return p.normals != NONE && scene.materials[p.material].kind == MATERIAL_DIFFUSE;
+    });
     features.hasMirror = anyMaterial([](const Material& m) { return m.kind == MATERIAL_MIRROR; });
     features.hasGlass = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS; });
     features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
