@@ -48,7 +48,7 @@ void main() {
     if (hasGuide != 0u && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
     weight *= sparse;
 
-    vec3 color = light.radiance / luminance(light.radiance) * weight;
+    vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);
     args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;

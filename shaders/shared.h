@@ -186,6 +186,7 @@ struct Light {
     uint kind;
     uint twoSided;
     float area;
+    float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
 };
 BUFFER(Light)
 

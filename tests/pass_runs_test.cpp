@@ -67,8 +67,8 @@ vec3 layerAt(const std::vector<float>& samples, uint layer, std::size_t pixel) {
     return {at(0), at(1), at(2)};
 }
 
-Film filmOf(PassRange passes) {
-    Film film(testGpu(), size);
+Film filmOf(PassRange passes, uint blockPixels = 1u << 22) {
+    Film film(testGpu(), size, {}, blockPixels);
     const uint pixels = size.x * size.y;
     for (uint pass = passes.begin; pass < passes.end; pass++) {
         const std::vector<float> all = samplesOf(pass);
@@ -87,6 +87,19 @@ Film filmOf(PassRange passes) {
 void expectSameBits(const std::vector<Pixel>& a, const std::vector<Pixel>& b) {
     ASSERT_EQ(a.size(), b.size());
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)), 0);
+}
+
+// Blocks of a row, of some rows, the last one shorter, and of less than a row, that is a row: tiles and reads cross their borders.
+TEST(Film, BlocksGiveTheBitsOfTheWhole) {
+    const PassRange passes{3, 25};
+    const Film whole = filmOf(passes);
+    for (const uint blockPixels : {1u, size.x, 2 * size.x + 1, 3 * size.x}) {
+        const Film blocks = filmOf(passes, blockPixels);
+        expectSameBits(blocks.download(), whole.download());
+        Film restored(testGpu(), size, {}, blockPixels);
+        for (std::size_t i = 0; i < whole.runCount(); i++) restored.restore(whole.run(i), whole.sums(i));
+        expectSameBits(restored.download(), whole.download());
+    }
 }
 
 TEST(Film, PartsGiveTheBitsOfTheWhole) {

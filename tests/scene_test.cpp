@@ -4,6 +4,8 @@
 #include "scene_text.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include "scene/lights.h"
+#include <ranges>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -313,6 +315,42 @@ TEST(Scene, TrianglesWithoutAreaAreDroppedWithAWarning) {
     const Scene scene = loadJson(withShape(mesh("flat_triangle.obj")));
     EXPECT_EQ(scene.triangleCount, 3u); // one of two, and the light's
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("scene.json: /shapes/0: 1 of 2 triangles")));
+}
+
+// However weak a light is, random numbers of 24 bits choose it, and its photons weigh what makes up for the probability.
+TEST(Scene, WeakLightsHaveTheirFlux) {
+    for (const double weak : {1e-1, 1e-7, 1e-12}) {
+        json scene = smallScene();
+        for (const int place : {20, 30, 40}) {
+            scene["shapes"].push_back({{"type", "sphere"}, {"center", {place, 0, 0}}, {"radius", 2}, {"emission", place == 30 ? 3.0 : 3 * weak}});
+        }
+        const Scene lit = loadJson(scene);
+        ASSERT_EQ(lit.lights.size(), 4u);
+        double total = 0, last = 0;
+        for (const Light& light : lit.lights) total += luminance(lightFlux(light));
+        for (std::size_t i = 0; i < 4; i++) {
+            const double probability = double(lit.lightCdf[i]) - last, steps = std::ldexp(probability, 24);
+            last = double(lit.lightCdf[i]);
+            EXPECT_GE(steps, 1) << weak;
+            EXPECT_EQ(steps, std::round(steps)) << weak;
+            const double share = luminance(lightFlux(lit.lights[i])) / total;
+            EXPECT_NEAR(double(lit.lights[i].share) * probability, share, 1e-7 * share) << weak << " " << i;
+            EXPECT_NEAR(probability, share, 0x1p-22) << weak << " " << i;
+        }
+        EXPECT_EQ(last, 1);
+    }
+}
+
+TEST(Scene, CumulativeGivesStepsToAll) {
+    std::vector<double> weights(1'000'000, 1e-9);
+    weights[500'000] = 1;
+    weights[7] = 0;
+    const std::vector<float> cdf = cumulative(weights);
+    EXPECT_TRUE(std::ranges::is_sorted(cdf));
+    EXPECT_EQ(cdf.back(), 1.0f);
+    EXPECT_EQ(cdf[7], cdf[6]);
+    EXPECT_EQ(std::ranges::count_if(std::views::iota(1u, 1'000'000u), [&](uint i) { return cdf[i] > cdf[i - 1]; }), 999'998);
+    EXPECT_EQ(cumulative(std::vector{0.0, 2.0, 2.0, 0.0}), (std::vector{0.0f, 0.5f, 1.0f, 1.0f}));
 }
 
 TEST(Scene, LightsAreChosenByLuminousFlux) {

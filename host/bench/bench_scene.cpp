@@ -56,7 +56,7 @@ Scene benchScene(uint around, uint across) {
     if (around == 0) addBalls(scene);
     scene.name = around == 0 ? "a box with two balls" : "a lumpy torus in a box";
     scene.materials = {{MATERIAL_DIFFUSE, vec3{0.7f}, 1}};
-    scene.lights = {{{-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, vec3{10}, LIGHT_RECTANGLE, 0, 0.25f}};
+    scene.lights = {{{-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}, vec3{10}, LIGHT_RECTANGLE, 0, 0.25f, 1}};
     scene.lightCdf = {1};
     scene.bounds = {vec3{-1}, vec3{1}};
     scene.view = {{0.2f, 0.5f, 0.95f}, {0, -0.1f, 0}, {0, 1, 0}, glm::radians(75.0f)};

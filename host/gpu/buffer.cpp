@@ -40,6 +40,9 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
     const auto& device = gpu.handles->device;
     if (usedBytes(gpu) + bytes > gpu.handles->freeBytes)
         throw OutOfMemory(refusal(gpu, name, bytes, fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576)));
+    const auto limits = gpu.handles->physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+    if (const std::uint64_t most = limits.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize; bytes > most)
+        throw OutOfMemory(refusal(gpu, name, bytes, fmt::format("the device gives {:.1f} MiB in one piece at most", double(most) / 1048576)));
     if (gpu.handles->isProcessor)
         if (const std::string cause = whyNotAllocated(bytes, usedBytes(gpu)); !cause.empty()) throw GpuError(refusal(gpu, name, bytes, cause));
     Allocation result;

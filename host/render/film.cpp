@@ -97,8 +97,8 @@ Pixel Total::pixel(double n) const {
 
 } // namespace
 
-Film::Film(Gpu& device, uvec2 pixels, const Features& features)
-    : gpu(device), size(pixels), count(size.x * size.y), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
+Film::Film(Gpu& device, uvec2 pixels, const Features& features, uint wanted)
+    : gpu(device), size(pixels), count(size.x * size.y), blockPixels(std::max(wanted / size.x, 1u) * size.x), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
     status.upload(std::vector(1, Status{}));
 }
 
@@ -110,10 +110,21 @@ std::vector<PassRange> Film::ranges() const {
     return ranges;
 }
 
-Buffer<float> Film::emptySums() {
-    Buffer<float> sums = spare.size() ? std::move(spare) : Buffer<float>(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * count);
-    spare = {};
+Film::Sums Film::emptySums() {
+    if (!spare.empty()) return std::exchange(spare, {});
+    Sums sums;
+    for (uint block = 0; block * std::uint64_t(blockPixels) < count; block++) sums.emplace_back(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * pixelsOf(block));
     return sums;
+}
+
+std::vector<Film::Part> Film::partsOf(uint first, uint pixels) const {
+    std::vector<Part> parts;
+    for (uint done = 0; done < pixels;) {
+        const uint block = (first + done) / blockPixels, inBlock = (first + done) % blockPixels;
+        parts.push_back({block, inBlock, done, std::min(pixels - done, pixelsOf(block) - inBlock)});
+        done += parts.back().count;
+    }
+    return parts;
 }
 
 Film::Run& Film::append(PassRange passes) {
@@ -125,15 +136,17 @@ void Film::begin(uint pass) {
     if (!runs.empty() && joins(runs.back().passes, {pass, pass + 1})) return;
     const Uninterrupted here(gpu);
     Recording recording(gpu);
-    recording.clear(append({pass, pass}).sums);
+    for (const Buffer<float>& block : append({pass, pass}).sums) recording.clear(block);
     recording.submit();
 }
 
 void Film::add(const Buffer<float>& samples, uint stride, uint first, uint sampleCount) {
     const Run& run = runs.back();
     Recording recording(gpu);
-    recording.run(film, sampleCount,
-                  {samples, run.sums, status, stride, count, first, sampleCount, joinWeights(run.passes, {run.passes.end, run.passes.end + 1})});
+    for (const Part& part : partsOf(first, sampleCount))
+        recording.run(film, part.count,
+                      {{samples.address + part.inRange * sizeof(float)}, run.sums[part.block], status, stride, pixelsOf(part.block), part.inBlock, part.count,
+                       joinWeights(run.passes, {run.passes.end, run.passes.end + 1})});
     recording.submit();
 }
 
@@ -146,17 +159,22 @@ void Film::end() {
 std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) const {
     std::vector<PixelSum> sums(std::size_t(rows) * size.x, PixelSum{});
     std::vector<float> values; // column by column
-    values.reserve(sums.size() * columns.SUM_COLUMNS);
-    for (uint column = 0; column < columns.SUM_COLUMNS; column++)
-        runs[index].sums.append(values, sums.size(), std::uint64_t(column) * count + std::uint64_t(firstRow) * size.x);
-    const std::size_t block = 256; // pixels that stay in the cache
+    const std::size_t together = 256; // pixels that stay in the cache
     const std::vector<Place> places = placesOf(columns);
-    for (std::size_t first = 0; first < sums.size(); first += block)
-        for (const Place& place : places)
-            for (uint k = 0; k < place.floats; k++) {
-                const float* from = values.data() + std::size_t(place.inFilm + k) * sums.size();
-                for (std::size_t i = first; i < std::min(first + block, sums.size()); i++) reinterpret_cast<float*>(&sums[i])[place.inPixel + k] = from[i];
-            }
+    for (const Part& part : partsOf(firstRow * size.x, rows * size.x)) {
+        const Buffer<float>& block = runs[index].sums[part.block];
+        values.clear();
+        values.reserve(std::size_t(part.count) * columns.SUM_COLUMNS);
+        for (uint column = 0; column < columns.SUM_COLUMNS; column++)
+            block.append(values, part.count, std::uint64_t(column) * pixelsOf(part.block) + part.inBlock);
+        for (std::size_t first = 0; first < part.count; first += together)
+            for (const Place& place : places)
+                for (uint k = 0; k < place.floats; k++) {
+                    const float* from = values.data() + std::size_t(place.inFilm + k) * part.count;
+                    for (std::size_t i = first; i < std::min<std::size_t>(first + together, part.count); i++)
+                        reinterpret_cast<float*>(&sums[part.inRange + i])[place.inPixel + k] = from[i];
+                }
+    }
     return sums;
 }
 
@@ -166,11 +184,13 @@ void Film::restore(std::span<const PassRange> passes, const std::function<std::v
     for (uint row = 0; row < size.y; row += rowsAtOnce) {
         const std::vector<std::vector<PixelSum>> block = sums(row, std::min(rowsAtOnce, size.y - row));
         for (std::size_t run = 0; run < restored.size(); run++) {
-            std::vector<float> values(block[run].size());
-            forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-                for (std::size_t i = 0; i < values.size(); i++) values[i] = reinterpret_cast<const float*>(&block[run][i])[inPixel];
-                restored[run].sums.upload(values, std::uint64_t(inFilm) * count + std::uint64_t(row) * size.x);
-            });
+            for (const Part& part : partsOf(row * size.x, static_cast<uint>(block[run].size()))) {
+                std::vector<float> values(part.count);
+                forEachFloat(columns, [&](uint inPixel, uint inFilm) {
+                    for (std::size_t i = 0; i < values.size(); i++) values[i] = reinterpret_cast<const float*>(&block[run][part.inRange + i])[inPixel];
+                    restored[run].sums[part.block].upload(values, std::uint64_t(inFilm) * pixelsOf(part.block) + part.inBlock);
+                });
+            }
         }
     }
     for (Run& run : restored) {
@@ -192,7 +212,8 @@ void Film::joinLast() {
         Run& run = runs[runs.size() - 2];
         const Run& last = runs.back();
         Recording recording(gpu);
-        recording.run(join, count, {run.sums, last.sums, count, joinWeights(run.passes, last.passes)});
+        for (uint block = 0; block < run.sums.size(); block++)
+            recording.run(join, pixelsOf(block), {run.sums[block], last.sums[block], pixelsOf(block), joinWeights(run.passes, last.passes)});
         recording.submit();
         run.passes.end = last.passes.end;
         spare = std::move(runs.back().sums);

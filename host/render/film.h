@@ -19,7 +19,8 @@ struct FilmRows {
 class Film {
 public:
     /// A film has the columns that the features say, and takes samples that have them.
-    Film(Gpu& gpu, uvec2 pixels, const Features& features = {});
+    /// Its sums are kept in blocks of whole rows, of about `blockPixels`, so that no index in one and no allocation is too large.
+    Film(Gpu& gpu, uvec2 pixels, const Features& features = {}, uint blockPixels = 1u << 22);
 
     /// Makes room for a pass, the one after the last. Neither this nor end() is ever cancelled.
     void begin(uint pass);
@@ -51,21 +52,32 @@ public:
     std::array<std::uint64_t, LAYER_COUNT> nonfinite() const;
 
 private:
+    using Sums = std::vector<Buffer<float>>; // [block][column][pixel]
     struct Run {
         PassRange passes;
-        Buffer<float> sums; // [column][pixel]
+        Sums sums;
+    };
+    /// Pixels of a range that one block has.
+    struct Part {
+        uint block;
+        uint inBlock; // the first, of the block
+        uint inRange; // the first, of the range
+        uint count;
     };
 
-    Buffer<float> emptySums();
+    Sums emptySums();
+    uint pixelsOf(uint block) const { return std::min(blockPixels, count - block * blockPixels); }
+    std::vector<Part> partsOf(uint first, uint pixels) const;
     Run& append(PassRange passes);
     void joinLast();
 
     std::reference_wrapper<Gpu> gpu;
     uvec2 size;
     uint count;
+    uint blockPixels; // of all blocks but the last
     Columns columns;
     std::vector<Run> runs; // adjacent, ascending
-    Buffer<float> spare;
+    Sums spare;
     Buffer<Status> status;
     Kernel<FilmArgs> film;
     Kernel<JoinArgs> join;

@@ -105,7 +105,6 @@ static std::vector<double> lightWeights(std::span<const float> values, std::span
 std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const EyePlaces& places, std::span<const float> byFlux) {
     const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, mostLightsEach);
     const uint points = static_cast<uint>(places.paths.splitPoints().size()) / pointsApart;
-    std::vector<float> cdf(byFlux.begin(), byFlux.end());
     const Buffer<float> values(gpu, "light values", std::uint64_t(points) * each);
     const Kernel<WeighArgs> weigh(gpu, "weigh", features);
     Recording recording(gpu);
@@ -113,14 +112,10 @@ std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Featu
     recording.submit();
     std::vector<float> brought = values.download();
     std::ranges::replace_if(brought, [](float value) { return !std::isfinite(value); }, 0.0f);
-    const std::vector<double> weights = lightWeights(brought, byFlux, each);
+    std::vector<double> weights = lightWeights(brought, byFlux, each);
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    double sum = 0;
-    for (uint i = 0; i + 1 < lights; i++) {
-        sum += weights[i];
-        cdf[i] = static_cast<float>(std::min(0.9 * sum / total + 0.1 * double(byFlux[i]), 1.0));
-    }
-    return cdf;
+    for (uint i = 0; i < lights; i++) weights[i] = 0.9 * weights[i] / total + 0.1 * (double(byFlux[i]) - (i > 0 ? double(byFlux[i - 1]) : 0));
+    return cumulative(weights);
 }
 
 } // namespace vkpm

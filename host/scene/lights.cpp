@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 
 namespace vkpm {
 using glm::dvec3;
@@ -26,11 +27,28 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
     if (!std::isfinite(scene.flux.x + scene.flux.y + scene.flux.z))
         refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
-    double sum = 0;
-    for (const Light& light : scene.lights) {
-        sum += luminance(lightFlux(light));
-        scene.lightCdf.push_back(&light == &scene.lights.back() ? 1.0f : static_cast<float>(std::min(sum / total, 1.0)));
+    std::vector<double> fluxes;
+    for (const Light& light : scene.lights) fluxes.push_back(luminance(lightFlux(light)));
+    scene.lightCdf = cumulative(fluxes);
+    for (std::size_t i = 0; i < fluxes.size(); i++) {
+        const double probability = double{scene.lightCdf[i]} - (i > 0 ? double{scene.lightCdf[i - 1]} : 0);
+        scene.lights[i].share = probability > 0 ? static_cast<float>(fluxes[i] / total / probability) : 1.0f;
     }
+}
+
+std::vector<float> cumulative(std::span<const double> weights) {
+    const double steps = 0x1p24, total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const auto positive = static_cast<std::size_t>(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
+    // A step each beforehand, and the rest in proportion.
+    const double each = positive <= std::size_t(1) << 23 ? 1 : 0, rest = steps - each * double(positive);
+    std::vector<float> cdf;
+    double sum = 0, given = 0;
+    for (const double weight : weights) {
+        sum += weight;
+        if (weight > 0) given += each;
+        cdf.push_back(static_cast<float>(std::min(given + std::round(rest * (sum / total)), steps) / steps));
+    }
+    return cdf;
 }
 
 /// About the boxes of primitives that count, `wide` times half the diagonal of them all.

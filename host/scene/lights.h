@@ -1,6 +1,7 @@
 /// Area lights: their flux and the probabilities with which they are chosen.
 #pragma once
 #include "scene/scene.h"
+#include <span>
 
 namespace vkpm {
 
@@ -10,9 +11,13 @@ double luminance(glm::dvec3 color);
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 
-/// Fills `flux` and `lightCdf`. The probability of a light is the difference of its two entries of the CDF, in proportion to its
-/// luminance but for their rounding. Throws InputError, naming `file`, if
-/// no light emits or the flux is beyond the range of float.
+/// The cumulative distribution of weights, none negative and some positive, in whole steps of the random numbers that lights are chosen by
+/// (2^-24), so that differences are exactly the probabilities. Where the weight is positive the probability is, unless there
+/// are more than 2^23 of these.
+std::vector<float> cumulative(std::span<const double> weights);
+
+/// Fills `flux`, `lightCdf` and the lights' `share`. The probability of a light is the difference of its two entries of the CDF, nearly in
+/// proportion to its flux. Throws InputError, naming `file`, if no light emits or the flux is beyond the range of float.
 void chooseLights(Scene& scene, const std::filesystem::path& file);
 
 /// The sphere about the box of all that light falls upon: of all primitives but lights that reflect nothing.

@@ -252,7 +252,7 @@ void ShapeLoader::addFlat(const Reader& shape, const Primitive& triangle) {
 
 uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area) {
     if (surface.radiance == vec3{0}) return NONE;
-    scene.lights.push_back({a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area)});
+    scene.lights.push_back({a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 1});
     return static_cast<uint>(scene.lights.size() - 1);
 }
 
