@@ -22,7 +22,7 @@ static Json featuresJson(const Features& features, const Settings& settings) {
 static Json kernelsJson(const Gpu& gpu, const Features& features) {
     Json list = Json::array();
     for (const auto& [name, time] : gpu.times) {
-        if (name == "clear" || name == "audit") continue;
+        if (name == "clear" || name == "audit" || name == "staging") continue;
         list.push_back({{"name", name}, {"instructions", instructionCount(name, features)}, {"general_instructions", instructionCount(name, Features{})}});
     }
     return list;

@@ -23,10 +23,10 @@ bool isOnSide(PhotonMap map, uint i, Query query) {
     return cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side);
 }
 
-// The squared distance of a photon that counts, or infinity.
+// The squared distance of a photon that counts, or the greatest float.
 float photonDistance2(PhotonMap map, uint i, Query query, float radius) {
     vec3 d = PhotonPtr(map.photons).at[i].position - query.position;
-    return isNear(d, query, radius) && isOnSide(map, i, query) ? dot(d, d) : INFINITY;
+    return isNear(d, query, radius) && isOnSide(map, i, query) ? dot(d, d) : GREATEST;
 }
 
 // Sum of the photons' colours under the kernel, and within the disc of half the area under the kernel of that one.

@@ -26,7 +26,7 @@ Ray makeRay(vec3 origin, vec3 direction) {
     return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axes, permute(origin, axis));
 }
 
-// Where a ray enters a box, or infinity if it misses it within (0, tMax]; conservative (Ize 2013). Numbers that are not negative
+// Where a ray enters a box, or GREATEST if it misses it within (0, tMax]; conservative (Ize 2013). Numbers that are not negative
 // are in the order of their bits, and integers want no care for NaN: for this a driver may need three instructions a comparison.
 // Where a number is negative the box ends behind the ray, and so it stays whichever of them is taken.
 float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
@@ -35,7 +35,7 @@ float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
     ivec3 far = floatBitsToInt((mix(high, low, backwards) - ray.origin) * ray.inverse);
     float enter = intBitsToFloat(max(max(near.x, near.y), max(near.z, 0)));
     float leave = intBitsToFloat(min(min(far.x, far.y), min(far.z, floatBitsToInt(tMax)))) * 1.0000008;
-    return enter <= leave ? enter : INFINITY;
+    return enter <= leave ? enter : GREATEST;
 }
 
 // Watertight (Woop, Benthin & Wald 2013): neighbours compute a shared edge from the same products,

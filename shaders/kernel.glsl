@@ -8,7 +8,7 @@ layout(local_size_x = GROUP) in;
 #define ARGS(T) layout(push_constant, scalar) uniform PushConstants { T args; };
 
 const float PI = 3.14159265;
-#define INFINITY uintBitsToFloat(0x7f800000u)
+const float GREATEST = 3.4028235e38; // of floats: compilers may take it that there are no infinities
 
 // Index over all groups of a dispatch, which may have several rows.
 uint groupIndex() {

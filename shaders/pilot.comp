@@ -13,7 +13,7 @@ ARGS(PilotArgs)
 // it; on a flat surface these have an area of 4 x 2.1^2 radii squared.
 float photonsInDisc(vec3 position, uint level) {
     Cells cells = cellsAround(args.map, position, vec3(0.0), ldexp(args.map.radius, -int(level)));
-    cells.reach2 = INFINITY; // all eight count, whole
+    cells.reach2 = GREATEST; // all eight count, whole
     cells.low = 2 * cells.first;
     cells.high = cells.low + 3;
     uint photons = 0u;

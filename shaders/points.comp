@@ -21,7 +21,7 @@ void main() {
     for (uint corner = 0u; corner < 8u; corner++) {
         uvec2 range = cellRange(args.map, cells, corner);
         for (uint i = range.x; i < range.y; i++) {
-            if (photonDistance2(args.map, i, query, radius) < INFINITY) sum += PhotonPtr(args.map.photons).at[i].color;
+            if (photonDistance2(args.map, i, query, radius) < GREATEST) sum += PhotonPtr(args.map.photons).at[i].color;
         }
     }
     float brightest = maxComponent(sum);

@@ -112,13 +112,10 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
     return fate;
 }
 
-// Keeps the arrivals of a subgroup in any order; (slot, index) says where they belong.
-void deposit(bool arrives, Arrival arrival) {
-    uint before = subgroupExclusiveAdd(uint(arrives));
-    uint count = subgroupAdd(uint(arrives));
-    uint first = subgroupElect() ? atomicAdd(args.status.at[0].arrivals, count) : 0u;
-    uint place = subgroupAdd(first) + before;
-    if (!arrives) return;
+// Keeps an arrival, in any order; (slot, index) says where it belongs. One atomic each: to share one takes several operations on a
+// subgroup whose lanes nothing keeps together in between.
+void deposit(Arrival arrival) {
+    uint place = atomicAdd(args.status.at[0].arrivals, 1u);
     args.counts.at[arrival.slot] = arrival.index + 1u;
     if (place < args.capacity) args.arrivals.at[place] = arrival;
 }
@@ -131,10 +128,10 @@ void main() {
     bool arrives;
     Arrival arrival;
     uint fate = step(args.list.at[queue.first + place], arrives, arrival);
-    deposit(arrives, arrival);
+    if (arrives) deposit(arrival);
     args.flags.at[place] = uint(fate == FATE_GOES_ON) << QUEUE_CONTINUE;
 
-    // The ledger; sums of integers do not depend on their order.
+    // The ledger; sums of integers depend neither on their order nor on which lanes are together.
     uint escaped = subgroupAdd(uint(fate == FATE_ESCAPED));
     uint absorbed = subgroupAdd(uint(fate == FATE_ABSORBED));
     if (subgroupElect()) {

@@ -125,7 +125,7 @@ SeenPoint seenInPolygon(Light light, vec3 origin, vec2 u) {
     vec3 weights = pointOf(t, part, u.y);
     float sum = weights.x + weights.y + weights.z;
     if (!(sum > 0.0)) return SeenPoint(flatLightAt(light, vec2(0.5)), 0.0);
-    return SeenPoint(flatLightAt(light, (weights.yz + (beyond ? weights.x : 0.0)) / sum), 2.0 * whole);
+    return SeenPoint(flatLightAt(light, min((weights.yz + (beyond ? weights.x : 0.0)) / sum, 1.0)), 2.0 * whole); // drivers divide to 2.5 ulps
 }
 
 // Lights whose middle is within so many of their diagonals are near.

@@ -83,7 +83,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
     uint held = 0u; // how many are in registers
     uint node = 0u;
     Hit hit = Hit(tMax, NONE, vec2(0.0));
-    Contact contact = Contact(Hit(INFINITY, NONE, vec2(0.0)), 0.0);
+    Contact contact = Contact(Hit(GREATEST, NONE, vec2(0.0)), 0.0);
     NodePtr nodes = NodePtr(scene.nodes);
     while (true) {
         bool finished = false; // with this subtree
@@ -93,7 +93,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
             uint leftChild = nodes.at[node].left;
             uint rightChild = nodes.at[node].right;
             bool swap = right < left;
-            if (left < INFINITY && right < INFINITY) {
+            if (left < GREATEST && right < GREATEST) {
                 if (stackSize > 8u && held == 8u) {
                     memory[moved] = older.w;
                     memory[moved + 1u] = older.z;
@@ -106,7 +106,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
                 newer = uvec4(swap ? leftChild : rightChild, newer.xyz);
                 held++;
             }
-            if (left < INFINITY || right < INFINITY) node = swap ? rightChild : leftChild;
+            if (left < GREATEST || right < GREATEST) node = swap ? rightChild : leftChild;
             else finished = true;
         }
         // One primitive of a leaf at a time: for lanes that diverge a loop of its own costs more than it saves.
@@ -136,7 +136,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
 // The closest hit with t > 0 of a ray that leaves the primitive `from`, or NONE.
 Hit closest(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
     Passage none = Passage(false, 0u);
-    return traverse(scene, makeRay(origin, direction), from, INFINITY, false, none);
+    return traverse(scene, makeRay(origin, direction), from, GREATEST, false, none);
 }
 
 // Whether anything stands between two points.

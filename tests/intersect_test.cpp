@@ -214,7 +214,7 @@ TEST(Intersect, BoxesBesideAndBehindAreMissed) {
         xs.push_back(around(origin, direction, origin - direction * distance, size));
         xs.push_back(around(origin, direction, origin + across * distance + direction * random.between(0, 3), size));
     }
-    for (const float y : map<float>("intersect_box", xs)) ASSERT_EQ(y, INFINITY);
+    for (const float y : map<float>("intersect_box", xs)) ASSERT_EQ(y, std::numeric_limits<float>::max());
 }
 
 TEST(Intersect, BoxesAreEnteredWhereTheyBegin) {
@@ -222,7 +222,8 @@ TEST(Intersect, BoxesAreEnteredWhereTheyBegin) {
     const auto ys = map<float>("intersect_box", std::vector<BoxCase>{{{0, 0, 0}, {1, 0, 0}, low, high}, {{0, 0, 0}, {0.5f, -0.0f, 0}, low, high},
                                                                      {{1.5f, 0, 0}, {1, 0, 0}, low, high}, {{3, 0, 0}, {-1, 0, 0}, low, high},
                                                                      {{3, 0, 0}, {1, 0, 0}, low, high}, {{0, 1.5f, 0}, {1, 0, 0}, low, high}});
-    EXPECT_EQ(ys, (std::vector<float>{1, 2, 0, 1, INFINITY, INFINITY}));
+    const float missed = std::numeric_limits<float>::max();
+    EXPECT_EQ(ys, (std::vector<float>{1, 2, 0, 1, missed, missed}));
 }
 
 } // namespace

@@ -110,7 +110,7 @@ TEST(Surface, OfATriangle) {
             const SurfaceValues y = map<SurfaceValues>("surface_at", std::vector{x}, {.hasSmoothNormals = smooth}, uploaded.context())[0];
             EXPECT_EQ(y.position, (vec3{1.5f, 3.5f, 3}));
             EXPECT_EQ(y.magnitude, (vec3{5, 9, 9}));
-            EXPECT_EQ(y.normal, (vec3{0, 0, 1}));
+            EXPECT_LT(glm::length(y.normal - vec3{0, 0, 1}), 1.3e-7); // drivers take roots and divide to some ulps
             const vec3 shading = smooth ? glm::normalize(0.25f * na + 0.25f * nb + 0.5f * nc) : y.normal;
             EXPECT_LT(glm::length(y.shading - shading), 1e-6) << "on the side of the geometric normal";
             EXPECT_EQ(y.material, 7u);

@@ -234,7 +234,7 @@ TEST(Precision, DensityKernels) {
                           [&](const Inputs<1>& x) { return exactWeight(kernel, x[0]); });
             mean += double{ys[i]} / count;
         }
-        judge(precision, kernel == KERNEL_GAUSS ? 15 : 8, 3);
+        judge(precision, kernel == KERNEL_GAUSS ? 15 : 8, 3.5);
         fmt::print("| kernel: {}, mean weight less one | the disc | {:.1e} | | | |\n", name, mean - 1);
         EXPECT_NEAR(mean, 1, 2e-7) << name;
     }
@@ -287,7 +287,7 @@ TEST(Precision, SolidAngle) {
     Precision precision("solid angle of a square", "2^-12 to 2 of its side away");
     for (std::size_t i = 0; i < xs.size(); i++)
         precision.add(double{ys[i].solidAngle}, std::array{double{xs[i].a.x}, double{xs[i].a.y}, double{xs[i].a.z}}, exactSolidAngle);
-    judge(precision, 1000, 1);
+    judge(precision, 2000, 1); // 841 on lavapipe, 1672 on an NVIDIA H100
 }
 
 TEST(Precision, Sampling) {

@@ -54,7 +54,9 @@ TEST_F(Program, StagedMemoryGivesTheSameFiles) {
     EXPECT_EQ(run("--scene " + scene("box") + small + "--quiet -o a.exr").code, 0);
     ::setenv("VKPM_STAGING", "1", 1);
     const Result staged = run("--scene " + scene("box") + small + "--quiet -o b.exr --stats b.json");
+    const Result planned = run("plan --json --scene " + scene("box") + small);
     ::unsetenv("VKPM_STAGING");
+    EXPECT_EQ(planned.code, 0) << planned.output;
     EXPECT_EQ(staged.code, 0) << staged.output;
     EXPECT_TRUE(bytesOf(folder / "a.png") == bytesOf(folder / "b.png"));
     EXPECT_NE(bytesOf(folder / "b.json").find("staging"), std::string::npos) << "nothing was staged";

@@ -149,7 +149,7 @@ void expectSameAsAll(const Soup& soup, const Features& features, uint seed) {
     const auto distances = allDistances(soup, rays), between = allDistances(soup, ends);
     int found = 0, blocked = 0;
     for (std::size_t i = 0; i < rays.size(); i++) {
-        Hit expected{INFINITY, NONE, vec2(0)};
+        Hit expected{std::numeric_limits<float>::max(), NONE, vec2(0)};
         bool blocks = false;
         for (uint p = 0; p < soup.primitives.size(); p++) {
             if (distances[p * rays.size() + i] > 0 && distances[p * rays.size() + i] < expected.t) expected = {distances[p * rays.size() + i], p, vec2(0)};

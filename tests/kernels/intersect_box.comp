@@ -5,4 +5,4 @@
 #include "sphere.glsl"
 #include "intersect.glsl"
 
-MAP(BoxCase, float, intersectBox(makeRay(x.origin, x.direction), x.low, x.high, INFINITY))
+MAP(BoxCase, float, intersectBox(makeRay(x.origin, x.direction), x.low, x.high, GREATEST))
