@@ -80,7 +80,7 @@ Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
 // What a photon's flux is multiplied by since shading normals are not the geometric ones (Veach 1997, eq. 5.19);
 // wi against its direction of arrival, wo along that of departure, for a specular event about n.
 float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
-    if (hasSmoothNormals == 0u || n == geometric) return 1.0;
+    if (hasSmoothNormals == 0u || n == geometric || n == -geometric) return 1.0;
     return abs(dot(wi, n) * dot(wo, geometric)) / max(abs(dot(wi, geometric) * dot(wo, n)), 1e-6);
 }
 

@@ -206,15 +206,16 @@ private:
 };
 
 TEST(Features, RandomScenesRenderTheSameBits) {
-    double light = 0;
+    uint lit = 0;
     for (uint seed = 0; seed < 240; seed++) {
         Generator generator(seed);
         const json text = generator.scene();
         const Settings settings = generator.settings();
         const Scene scene = loadJson(text);
-        light += expectSameBits(scene, settings, "seed " + std::to_string(seed) + ": " + text.dump());
+        lit += expectSameBits(scene, settings, "seed " + std::to_string(seed) + ": " + text.dump()) > 1e-4;
     }
-    EXPECT_GT(light, 1); // they are not all black
+    std::printf("%u of 240 scenes are lit\n", lit);
+    EXPECT_GT(lit, 100u);
 }
 
 } // namespace

@@ -206,17 +206,30 @@ TEST(Scatter, ShadingNormalsNeverPutLightOnTheWrongSide) {
     EXPECT_GT(aboutShading, 60'000);
 }
 
-TEST(Scatter, SpecularCorrection) {
+// What shading normals do to a path they do not do to it backwards; about the geometric normal, on either side, they do nothing.
+TEST(Scatter, SpecularCorrectionOfAPathAndItsReverseCancel) {
     Random random(6);
-    std::vector<CorrectionCase> xs;
-    for (int i = 0; i < 1'000; i++) xs.push_back({random.direction(), random.direction(), random.direction(), random.direction()});
-    const auto ys = map<float>("specular_correction", xs), ones = map<float>("specular_correction", xs, flat);
-    for (std::size_t i = 0; i < xs.size(); i++) {
-        const auto& [wi, wo, n, g] = xs[i];
-        const double below = std::abs(double{glm::dot(wi, g)} * glm::dot(wo, n));
-        if (below > 1e-3) { ASSERT_NEAR(ys[i] * below, std::abs(double{glm::dot(wi, n)} * glm::dot(wo, g)), 1e-5); }
+    std::vector<CorrectionCase> forth, back, flatOnes;
+    for (int i = 0; i < 1'000; i++) {
+        const CorrectionCase x{random.direction(), random.direction(), random.direction(), random.direction()};
+        const auto& [wi, wo, n, g] = x;
+        if (std::min({std::abs(glm::dot(wi, n)), std::abs(glm::dot(wi, g)), std::abs(glm::dot(wo, n)), std::abs(glm::dot(wo, g))}) > 0.03f) {
+            forth.push_back(x);
+            back.push_back({wo, wi, n, g});
+        }
+        flatOnes.push_back({wi, wo, g, g});
+        flatOnes.push_back({wi, wo, -g, g});
+    }
+    ASSERT_GT(forth.size(), 700u);
+    const auto a = map<float>("specular_correction", forth), b = map<float>("specular_correction", back), ones = map<float>("specular_correction", forth, flat);
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < forth.size(); i++) {
+        ASSERT_NEAR(double{a[i]} * double{b[i]}, 1, 1e-4);
+        far += std::abs(a[i] - 1) > 0.1f;
         ASSERT_EQ(ones[i], 1);
     }
+    EXPECT_GT(far, forth.size() / 2);
+    for (const float one : map<float>("specular_correction", flatOnes)) ASSERT_EQ(one, 1);
     EXPECT_TRUE(std::isfinite(map<float>("specular_correction", std::vector<CorrectionCase>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}})[0]));
 }
 

@@ -28,12 +28,36 @@ TEST_F(Program, RendersEveryShippedSceneWithoutLossOrNonfinite) {
     }
 }
 
+/// Mean of three channels of a file: those of beauty, or of a layer if a prefix is given.
+double meanOf(const fs::path& file, const std::string& prefix = "") {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const Channel& channel : readExr(file).channels)
+        if (channel.name == prefix + "R" || channel.name == prefix + "G" || channel.name == prefix + "B") {
+            sum += std::accumulate(channel.values.begin(), channel.values.end(), 0.0);
+            count += channel.values.size();
+        }
+    return sum / double(std::max<std::size_t>(count, 1));
+}
+
+// The same light however it is found, but for noise and blur; of one kind alone, that kind.
 TEST_F(Program, EveryIntegratorKernelAndViewRenders) {
-    for (const char* options : {"--integrator path", "--integrator direct", "--integrator light", "--integrator photon-map --show points",
-                                "--integrator photon-map --map caustic", "--integrator photon-map --map caustic --show points",
-                                "--kernel cone", "--kernel gauss", "--kernel epanechnikov", "--nearest 10", "--fresnel schlick", "--seed 7"}) {
-        const Result result = run("--scene " + scene("box") + small + options + " --quiet -o x.exr");
-        EXPECT_EQ(result.code, 0) << options << result.output;
+    const std::string with = "--scene " + scene("box") + " --size 24x16 --photons 5000 --caustic-photons 5000 --quiet -o x.exr --passes ";
+    ASSERT_EQ(run(with + "16").code, 0);
+    const double whole = meanOf(folder / "x.exr"), direct = meanOf(folder / "x.exr", "direct."), caustic = meanOf(folder / "x.exr", "caustic.");
+    for (const char* options : {"256 --integrator path", "16 --kernel cone", "16 --kernel gauss", "16 --kernel epanechnikov", "16 --nearest 10", "16 --fresnel schlick", "16 --seed 7"}) {
+        const Result result = run(with + options);
+        ASSERT_EQ(result.code, 0) << options << result.output;
+        EXPECT_NEAR(meanOf(folder / "x.exr"), whole, 0.05 * whole) << options;
+    }
+    ASSERT_EQ(run(with + "16 --integrator direct").code, 0);
+    EXPECT_NEAR(meanOf(folder / "x.exr", "direct."), direct, 0.03 * direct);
+    ASSERT_EQ(run(with + "64 --integrator light").code, 0);
+    EXPECT_NEAR(meanOf(folder / "x.exr", "caustic."), caustic, 0.2 * caustic);
+    for (const char* options : {"4 --integrator photon-map", "4 --integrator photon-map --show points", "4 --integrator photon-map --map caustic", "4 --integrator photon-map --map caustic --show points"}) {
+        const Result result = run(with + options);
+        ASSERT_EQ(result.code, 0) << options << result.output;
+        EXPECT_GT(meanOf(folder / "x.exr"), 0.001) << options;
     }
 }
 
