@@ -266,6 +266,19 @@ TEST(Scene, GlassThatBoundsNoSolidIsNamed) {
                                                       wall({3, 0, 0}, {0, 0, 1}, {1, 0, 0}, "water"), wall({4, 1, 1}, {-1, 0, 0}, {0, 0, -1}, "water"),
                                                       wall({4, 1, 1}, {0, 0, -1}, {0, -1, 0}, "water"), wall({4, 1, 1}, {0, -1, 0}, {-1, 0, 0}, "water")}),
                 testing::IsEmpty());
+
+    // A cube beside it that shares a face, one with a gap, one that shares a part of the face, one of another material.
+    const auto cubeAt = [](vec3 place, const char* material) {
+        json shape = mesh("cube.obj"); // from -1 to 1
+        shape["material"] = material;
+        shape["transform"] = {{{"scale", 0.5}}, {{"translate", {place.x + 0.5f, place.y + 0.5f, place.z + 0.5f}}}};
+        return json{shape};
+    };
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0, 0}, "water")), ElementsAre(AllOf(HasSubstr("/shapes/2: a face of the glass lies on one of \"pane\""))));
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0.3f, 0.4f}, "water")), ElementsAre(HasSubstr("lies on one of")));
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1.001f, 0, 0}, "water")), testing::IsEmpty());
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({0.5f, 0.5f, 0.5f}, "water")), testing::IsEmpty()) << "overlap";
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0, 0}, "grey")), testing::IsEmpty());
 }
 
 TEST(Scene, MeshNumbersThatNobodyUsesMayBeAnything) {

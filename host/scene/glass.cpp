@@ -83,26 +83,28 @@ bool touchesOthers(const Scene& scene, const GlassShape& shape, dvec3 point, dou
     return false;
 }
 
+double reachOf(const Bounds& box) {
+    const vec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
+    return std::max({corner.x, corner.y, corner.z});
+}
+
 struct Measures {
     double volume = 0, area = 0; // the volume is negative if the outside is within
-    Bounds box;
     double diagonal = 0;
     double reach = 0; // greatest coordinate
 };
 
 Measures measuresOf(const Scene& scene, const GlassShape& shape) {
     Measures m;
-    Bounds& box = m.box;
+    const Bounds& box = shape.box;
     const dvec3 base{scene.primitives[shape.first].a};
     for (std::size_t i = shape.first; i < shape.end; i++) {
         const Primitive& p = scene.primitives[i];
         const dvec3 a = dvec3{p.a} - base, b = dvec3{p.b} - base, c = dvec3{p.c} - base;
         m.volume += glm::dot(a, glm::cross(b, c)) / 6;
         m.area += glm::length(glm::cross(b - a, c - a)) / 2;
-        box = {glm::min(box.low, glm::min(p.a, glm::min(p.b, p.c))), glm::max(box.high, glm::max(p.a, glm::max(p.b, p.c)))};
     }
-    const vec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
-    m.reach = std::max({corner.x, corner.y, corner.z});
+    m.reach = reachOf(box);
     m.diagonal = glm::distance(dvec3{box.low}, dvec3{box.high});
     return m;
 }
@@ -119,10 +121,50 @@ bool isWithinGlass(const Scene& scene, const GlassShape& shape, const Bounds& bo
     return glm::all(glm::lessThanEqual(around.low, box.low)) && glm::all(glm::greaterThanEqual(around.high, box.high));
 }
 
+bool areNear(const Bounds& a, const Bounds& b, double apart) {
+    return glm::all(glm::lessThanEqual(dvec3{a.low} - apart, dvec3{b.high})) && glm::all(glm::lessThanEqual(dvec3{b.low} - apart, dvec3{a.high}));
+}
+
+/// The triangles of a shape by a box.
+std::vector<Primitive> trianglesBy(const Scene& scene, const GlassShape& shape, const Bounds& box, double apart) {
+    std::vector<Primitive> found;
+    std::copy_if(scene.primitives.begin() + std::ptrdiff_t(shape.first), scene.primitives.begin() + std::ptrdiff_t(shape.end), std::back_inserter(found),
+                 [&](const Primitive& p) { return areNear(boxOf(p, false), box, apart); });
+    return found;
+}
+
+dvec3 normalOf(const Primitive& p) { return glm::normalize(glm::cross(dvec3{p.b} - dvec3{p.a}, dvec3{p.c} - dvec3{p.a})); }
+
+/// Whether the middle of a triangle lies on another.
+bool liesOn(const Primitive& p, const Primitive& other, double apart) {
+    const dvec3 middle = (dvec3{p.a} + dvec3{p.b} + dvec3{p.c}) / 3.0;
+    return areNear({vec3{middle}, vec3{middle}}, boxOf(other, false), apart) && distance2(other, middle) <= apart * apart && std::abs(glm::dot(normalOf(p), normalOf(other))) > 0.9999;
+}
+
+const std::size_t mostPairs = 10'000'000; // of triangles to compare
+
 const std::size_t placesLookedAt = 64;
 const double nextTo = 1e-2; // of the shape's diagonal
 
 } // namespace
+
+Bounds boxOf(const Scene& scene, const GlassShape& shape) {
+    Bounds box;
+    for (std::size_t i = shape.first; i < shape.end; i++) {
+        const Primitive& p = scene.primitives[i];
+        box = {glm::min(box.low, glm::min(p.a, glm::min(p.b, p.c))), glm::max(box.high, glm::max(p.a, glm::max(p.b, p.c)))};
+    }
+    return box;
+}
+
+bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other) {
+    const Bounds &a = one.box, &b = other.box;
+    const double apart = std::ldexp(std::max(reachOf(a), reachOf(b)), -17); // rays leave faces by half of this
+    if (!areNear(a, b, apart)) return false;
+    const std::vector<Primitive> ours = trianglesBy(scene, one, b, apart), theirs = trianglesBy(scene, other, a, apart);
+    if (ours.size() * theirs.size() > mostPairs) return false;
+    return std::ranges::any_of(ours, [&](const Primitive& p) { return std::ranges::any_of(theirs, [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); }); });
+}
 
 std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& shape) {
     const std::vector<Edge> edges = edgesOf(scene, shape);
@@ -142,7 +184,7 @@ std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& sh
         wrong.push_back(fmt::format("triangles of the glass face different ways at {} edges, and light there enters what it should leave; let all face outward", seams.turned));
     if (!seams.open.empty() || seams.turned > 0) return wrong;
 
-    if (m.volume < 0 && !isWithinGlass(scene, shape, m.box)) wrong.push_back("the glass is inside out: its triangles face inward; turn them, or give \"exteriorIor\" what lies within");
+    if (m.volume < 0 && !isWithinGlass(scene, shape, shape.box)) wrong.push_back("the glass is inside out: its triangles face inward; turn them, or give \"exteriorIor\" what lies within");
     const double thickness = 2 * std::abs(m.volume) / m.area, least = std::ldexp(m.reach, -14);
     if (thickness < least)
         wrong.push_back(fmt::format("the glass is {:.2g} thick, and light misses one of its faces: 32-bit floats as far as this from the middle of the scene take at least {:.2g}; "

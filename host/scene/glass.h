@@ -10,11 +10,18 @@ namespace vkpm {
 struct GlassShape {
     std::size_t first;
     std::size_t end;
+    Bounds box{};
 };
+
+/// The box about a shape.
+Bounds boxOf(const Scene& scene, const GlassShape& shape);
 
 /// What is wrong with a shape of glass, in words, and what helps: open where nothing else closes it, turned inside out or here and
 /// there, or so thin that rounding joins its faces. Light that enters such glass does not leave it as it should. Rectangles may close
 /// each other.
 std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& shape);
+
+/// Whether a face of one shape lies on a face of another, given their boxes, but for rounding: light that comes there takes one of them alone.
+bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other);
 
 } // namespace vkpm
