@@ -21,8 +21,12 @@ void main() {
     if (query.column == NONE) return;
     float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
                                                             : radiusAt(args.map, query.position);
-    if (radius == 0.0) return;
-    if (args.map.partial != 0u) args.queries.at[slot].column = NONE;
+    if (args.map.partial != 0u) {
+        // What is narrower than a pixel is not seen, and most paths from the eye would miss it.
+        radius = radius > 0.0 ? max(radius, args.map.shrink * query.footprint) : GREATEST;
+        if (radius > args.map.radius) return;
+        args.queries.at[slot].column = NONE;
+    }
     vec3 inner;
     vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
     if (hasBias != 0u)

@@ -42,11 +42,15 @@ void main() {
     if (i >= args.count) return;
     vec3 position = PhotonPtr(args.map.photons).at[i].position;
     float wanted = -logRadius(position);
+    if (args.map.partial != 0u) {
+        args.wanted.at[threadIndex()] = WantedRadius(position, wanted);
+        return;
+    }
     float value = clamp(wanted, 0.0, float(args.map.levels));
 
     // Integers, so that the order of adding does not matter.
     uint slot = fieldSlot(args.map, ivec3(floor(clamp(position * args.map.fieldPerUnit, -1.0e9, 1.0e9))));
-    if (wanted >= float(args.map.levels + 1u)) atomicAdd(args.sums.at[2u * (args.map.partial != 0u ? NARROW_FIELD_CELLS : FIELD_CELLS)], 1u);
+    if (wanted >= float(args.map.levels + 1u)) atomicAdd(args.sums.at[2u * FIELD_CELLS], 1u);
     atomicAdd(args.sums.at[2u * slot], uint(value * PILOT_UNIT + 0.5));
     atomicAdd(args.sums.at[2u * slot + 1u], 1u);
 }

@@ -5,19 +5,7 @@ struct Sampler {
     uint seed;  // of the sequence
 };
 
-// A bijection of 32 bits in which every input bit affects every output bit (Wellons 2018, "lowbias32").
-uint hash(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
-}
-
-uint hash(uvec3 v) {
-    return hash(v.x ^ hash(v.y ^ hash(v.z)));
-}
+#include "hash.h"
 
 uint hash(uint a, uint b) {
     return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));

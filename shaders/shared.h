@@ -477,7 +477,7 @@ struct PhotonMap {
     uint cellMask;
     uint levels;  // how often a cell is split into eight
     float radius; // the greatest
-    float shrink; // gather within this part of the distance of the k-th nearest
+    float shrink; // gather within this part of the distance of the k-th nearest, or of a pixel at least
     float photonFlux; // W per photon emitted
     float fieldPerUnit; // 0 if the radius is the same everywhere
     uint partial;       // 1: of narrow discs alone; where the field is unknown, the next map answers
@@ -489,12 +489,20 @@ struct PhotonMap {
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");
 #endif
 const uint MOST_LEVELS = 4u;
-const uint FIELD_CELLS = 1u << 16, NARROW_FIELD_CELLS = 1u << 20; // of a map, of one of narrow discs alone: hardly two share one
+const uint FIELD_CELLS = 1u << 16, NARROW_FIELD_CELLS = 1u << 22; // of a map, of one of narrow discs alone: hardly two share one
 const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
+
+/// A photon of a pilot, and the radius that it wants.
+struct WantedRadius {
+    vec3 position;
+    float logarithm; // negative binary one, in units of the map's radius; more than its levels: narrower than it has cells for
+};
+BUFFER(WantedRadius)
 
 struct PilotArgs {
     PhotonMap map;
     PTR(uint) sums; // by cell of the field: negative logarithms, photons; then photons whose discs cannot be as narrow as they should
+    PTR(WantedRadius) wanted; // in a partial map, in place of sums
     uint count;
     uint stride; // one photon of so many is looked at
     float perDisc; // photons wanted

@@ -11,8 +11,8 @@ public:
     explicit RadiusField(Gpu& gpu);
 
     /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius, none
-    /// narrower than that over 2^levels. One photon of `stride` is looked at. If the map is partial, the field is unknown but where
-    /// most photons want radii below the map's.
+    /// narrower than that over 2^levels. One photon of `stride` is looked at. If the map is partial, the field is known where most photons
+    /// want radii below the map's, and around, farther than wider discs reach.
     void measure(const PhotonMap& pilot, uint count, float perDisc, uint stride = 1);
     /// Makes gathers in a map use the field.
     void apply(PhotonMap& map) const;
@@ -26,6 +26,7 @@ public:
     float crowded = 0;
 
 private:
+    void measureNarrow(PhotonMap pilot, uint count, float perDisc);
     Gpu& gpu;
     float cellsPerUnit = 0;
     bool partial = false;

@@ -240,6 +240,7 @@ PhotonLedger Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     for (NarrowMap& narrow : stages->narrow) {
         narrow.map = narrow.grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), narrow.radius * factor, stages->flux, narrow.levels(), thinned);
         narrow.map.kernel = settings.kernel;
+        narrow.map.shrink = factor;
         narrow.field.apply(narrow.map);
     }
     stages->built = pass;
