@@ -3,6 +3,7 @@
 #include "gpu/recording.h"
 #include "render/pass_runs.h"
 #include "render/pixel.h"
+#include <algorithm>
 #include <array>
 #include <functional>
 
