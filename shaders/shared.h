@@ -81,7 +81,8 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(31, checksFeatures, 0) /* kernels report what they meet and are without, see features.glsl */                    \
     X(32, hasFarLights, 2) /* 1: only one, that nothing hides */                                                       \
     X(33, hasGuide, 1)                                                                                                 \
-    X(34, hasSmoothDiffuse, 1)
+    X(34, hasSmoothDiffuse, 1)                                                                                         \
+    X(35, hasContact, 1)
 
 #ifdef __cplusplus
 struct Features {

@@ -9,10 +9,6 @@ struct Contact {
     float slack; // how much farther along the ray an opaque triangle still hides `glass`
 };
 
-bool canTouch() {
-    return hasGlass != 0u && hasTriangles != 0u && (hasDiffuse != 0u || hasMirror != 0u);
-}
-
 bool isGlass(DeviceScene scene, uint id) {
     return MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind == MATERIAL_GLASS;
 }
@@ -60,7 +56,7 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
         passage.triangles++;
         return;
     }
-    if (any || !canTouch() || id >= scene.triangleCount || !isGlass(scene, id)) {
+    if (any || hasContact == 0u || id >= scene.triangleCount || !isGlass(scene, id)) {
         hit = Hit(t, id, weights);
     } else if (t < contact.glass.t || (t == contact.glass.t && id < contact.glass.primitive)) {
         float slack = slackOf(scene, ray, id);
@@ -70,7 +66,7 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
 
 // How far a ray has to be looked along.
 float reach(Hit hit, Contact contact) {
-    return canTouch() ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
+    return hasContact != 0u ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
 }
 
 // Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
@@ -129,7 +125,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
             held--;
         }
     }
-    if (!any && canTouch() && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
+    if (!any && hasContact != 0u && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
     return hit;
 }
 

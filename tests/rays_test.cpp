@@ -21,7 +21,7 @@ constexpr uint largestCount = rayCount / 20; // of differences; rays aimed at ed
 /// The nearest surface by geometry alone: what touches glass does not hide it.
 Features withoutContact(const Scene& scene) {
     Features features = sceneFeatures(scene, scene.settings);
-    features.hasGlass = 0;
+    features.hasContact = 0;
     return features;
 }
 

@@ -428,6 +428,27 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     EXPECT_EQ(features.hasCausticMap, 1u);
 }
 
+// A block of glass above, on and below the floor's height, beside the floor, and one of spheres.
+TEST(Scene, GlassThatMayTouchOpaqueFacesIsFound) {
+    writeScene("v 0 0 0\nv .1 0 0\nv 0 0 .1\nv 0 .1 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", "block.obj");
+    const auto contact = [](double height, double aside, double far) {
+        json scene = smallScene();
+        scene["shapes"][0] = {{"type", "mesh"}, {"file", "block.obj"}, {"material", "water"}, {"transform", {{{"translate", {aside, height, 0}}}}}};
+        scene["shapes"].push_back({{"type", "rectangle"}, {"corner", {-1, 0, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "grey"}});
+        if (far > 0) scene["shapes"].push_back({{"type", "sphere"}, {"center", {0, far, 0}}, {"radius", far / 100}, {"emission", 1}});
+        const Scene loaded = loadJson(scene);
+        return sceneFeatures(loaded, loaded.settings).hasContact;
+    };
+    for (const double far : {0.0, 1e6}) {
+        EXPECT_EQ(contact(0, 0, far), 1u);
+        EXPECT_EQ(contact(1e-6, 0, far), 1u);
+        EXPECT_EQ(contact(-1e-6, 0, far), 1u);
+        EXPECT_EQ(contact(0.01, 0, far), 0u);
+        EXPECT_EQ(contact(0, 1.01, far), 0u);
+    }
+    EXPECT_EQ(sceneFeatures(loadJson(smallScene()), Settings{}).hasContact, 0u); // no glass
+}
+
 TEST(Scene, PinholeCameraSpansTheFieldOfView) {
     const View view{{1, 2, 3}, {1, 2, -7}, {0.3f, 5, 9}, pi / 2};
     const Camera camera = pinholeCamera(view, {300, 100});

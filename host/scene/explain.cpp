@@ -51,6 +51,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasTriangles", f.hasTriangles, "triangles");
     has("hasSpheres", f.hasSpheres, "spheres");
     has("hasSmoothNormals", f.hasSmoothNormals, "smooth normals");
+    has("hasContact", f.hasContact, "glass next to something opaque");
     has("hasSmoothDiffuse", f.hasSmoothDiffuse, "diffuse meshes with smooth normals");
     has("hasMirror", f.hasMirror, "mirrors");
     has("hasGlass", f.hasGlass, "glass");

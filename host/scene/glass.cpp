@@ -166,6 +166,20 @@ bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other) {
     return std::ranges::any_of(ours, [&](const Primitive& p) { return std::ranges::any_of(theirs, [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); }); });
 }
 
+bool glassMayTouchOpaque(const Scene& scene) {
+    const double apart = std::ldexp(glm::length(dvec3{scene.near.center}) + scene.near.radius, -14); // of rays from as far as 100 times that
+    std::array<std::vector<Bounds>, 2> boxes; // of opaque triangles, of glass
+    std::array<Bounds, 2> about;
+    for (std::size_t i = 0; i < scene.triangleCount; i++) {
+        const bool isGlass = scene.materials[scene.primitives[i].material].kind == MATERIAL_GLASS;
+        boxes[isGlass].push_back(boxOf(scene.primitives[i], false));
+        about[isGlass] = {glm::min(about[isGlass].low, boxes[isGlass].back().low), glm::max(about[isGlass].high, boxes[isGlass].back().high)};
+    }
+    for (int kind : {0, 1}) std::erase_if(boxes[kind], [&](const Bounds& box) { return !areNear(box, about[1 - kind], apart); });
+    if (boxes[0].size() * boxes[1].size() > mostPairs) return true;
+    return std::ranges::any_of(boxes[0], [&](const Bounds& a) { return std::ranges::any_of(boxes[1], [&](const Bounds& b) { return areNear(a, b, apart); }); });
+}
+
 std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& shape) {
     const std::vector<Edge> edges = edgesOf(scene, shape);
     const Seams seams = seamsOf(edges);

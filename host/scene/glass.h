@@ -24,4 +24,7 @@ std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& sh
 /// Whether a face of one shape lies on a face of another, given their boxes, but for rounding: light that comes there takes one of them alone.
 bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other);
 
+/// Whether triangles of glass and of something opaque may be as near to each other as roundings, by their boxes; far lights aside.
+bool glassMayTouchOpaque(const Scene& scene);
+
 } // namespace vkpm

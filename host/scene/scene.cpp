@@ -1,4 +1,5 @@
 /// What a scene gives the kernels besides its arrays: the camera and the features.
+#include "scene/glass.h"
 #include "scene/lights.h"
 #include <algorithm>
 #include <cmath>
@@ -79,6 +80,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     });
     features.hasMirror = anyMaterial([](const Material& m) { return m.kind == MATERIAL_MIRROR; });
     features.hasGlass = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS; });
+    features.hasContact = features.hasGlass != 0 && glassMayTouchOpaque(scene);
     features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
     features.hasExactFresnel = features.hasGlass && !settings.schlick;
     features.hasSchlickFresnel = features.hasGlass && settings.schlick;
