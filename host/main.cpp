@@ -1,10 +1,8 @@
 /// vkpm on one screen: read the command line, load, render pass by pass, save.
-#include "commands.h"
-#include "options.h"
-#include "output/interrupt.h"
-#include "gpu/gpu.h"
+#include "commands/commands.h"
+#include "error.h"
 #include "gpu/process_limits.h"
-#include "scene/scene.h"
+#include "interrupt.h"
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -13,25 +11,11 @@
 
 using namespace vkpm;
 
-static int run(const Options& options) {
-    switch (options.command) {
-    case Command::Print: std::fputs(options.text.c_str(), stdout); return 0;
-    case Command::Devices: return showDevices(options);
-    case Command::Bench: return bench(options);
-    case Command::Plan: return plan(options);
-    case Command::Compare: return compare(options);
-    case Command::Merge: return merge(options);
-    case Command::Render: return render(options);
-    case Command::View: return view(options);
-    }
-    return 0;
-}
-
 int main(int count, char** arguments) {
     try {
         heedLimits();
         catchInterrupts();
-        const int code = run(parseOptions(count, arguments));
+        const int code = std::visit([](const auto& options) { return execute(options); }, parseOptions(count, arguments));
         if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::system_error(errno, std::generic_category(), "standard output: write");
         return code;
     } catch (const InputError& error) {

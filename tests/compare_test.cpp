@@ -1,6 +1,6 @@
 /// Error measures against values worked out by hand, the layers of an image, and vkpm compare on files.
 #include "output/exr.h"
-#include "output/layer_error.h"
+#include "measure/layer_error.h"
 #include "program.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

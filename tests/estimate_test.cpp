@@ -1,6 +1,6 @@
 /// Whether renders know how wrong they are: intervals of pixels and the error of pictures against closed forms and a long render.
 #include "lamp_in_mirror.h"
-#include "output/error_estimate.h"
+#include "render/error_estimate.h"
 #include "output/exr.h"
 #include "render/noise.h"
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 /// HDR-FLIP against values of the Python package flip-evaluator, and where that has none.
-#include "output/flip.h"
+#include "measure/flip.h"
 #include <algorithm>
 #include <functional>
 #include <gmock/gmock.h>

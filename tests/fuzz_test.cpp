@@ -3,8 +3,9 @@
 #include "allocations.h"
 #include "mutate.h"
 #include "refusal.h"
+#include "render/features.h"
 #include "render/radius.h"
-#include "scene/explain.h"
+#include "render/explain.h"
 #include "scene/identity.h"
 #include "scene_text.h"
 #include <chrono>

@@ -1,5 +1,6 @@
 /// The command line: what it sets, what it leaves open, and what every refusal says.
-#include "options.h"
+#include "commands/options.h"
+#include "error.h"
 #include "scene/scene.h"
 #include <filesystem>
 #include <fmt/format.h>
@@ -34,10 +35,12 @@ protected:
     }
 
     /// The options of a render of the scene with further words.
-    static Options render(std::vector<const char*> words) {
+    static RenderOptions render(std::vector<const char*> words) {
         words.insert(words.begin(), {"--scene", "box.json"});
-        return parse(words);
+        return std::get<RenderOptions>(parse(words));
     }
+
+    static std::string text(std::vector<const char*> words) { return std::get<PrintOptions>(parse(std::move(words))).text; }
 
     static std::string refusal(const std::vector<const char*>& words) {
         try {
@@ -58,11 +61,10 @@ protected:
 };
 
 TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
-    const Options options = render({});
-    EXPECT_EQ(options.command, Command::Render);
+    const RenderOptions options = render({});
     EXPECT_EQ(options.scene, "box.json");
     EXPECT_EQ(options.output, "box.exr");
-    EXPECT_FALSE(options.stats || options.quiet || options.json);
+    EXPECT_FALSE(options.stats || options.quiet);
     EXPECT_EQ(options.device, "");
 
     Settings scene;
@@ -75,7 +77,7 @@ TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
     scene.integrator = INTEGRATOR_PHOTON_MAP;
     scene.showPoints = true;
     scene.seed = 9;
-    const Settings settings = options.override(scene);
+    const Settings settings = options.over(scene);
     EXPECT_EQ(settings.size, scene.size);
     EXPECT_EQ(settings.passes, 3u);
     EXPECT_EQ(settings.photons, 11u);
@@ -89,13 +91,13 @@ TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
 }
 
 TEST_F(OptionsTest, OverridesTheScene) {
-    const Options options = render({"--size",       "640x480", "--integrator", "photon-map", "--map",     "caustic",
+    const RenderOptions options = render({"--size",       "640x480", "--integrator", "photon-map", "--map",     "caustic",
                                     "--show",       "points",  "--passes",     "4",          "--photons", "1e6",
                                     "--nearest",    "50",      "--caustic-photons", "0",     "--radius",  "0.25",
                                     "--caustic-radius=.125",   "--kernel",     "cone",       "--fresnel", "schlick",
                                     "--gather-rays", "7",      "--seed",       "4294967295", "--device",  "llvmpipe",   "--quiet",   "--stats",
                                     "s.json",       "-o",      "a.exr"});
-    const Settings settings = options.override(Settings{});
+    const Settings settings = options.over(Settings{});
     EXPECT_EQ(settings.size, uvec2(640, 480));
     EXPECT_EQ(settings.integrator, INTEGRATOR_PHOTON_MAP);
     EXPECT_TRUE(settings.showCaustic);
@@ -121,30 +123,27 @@ TEST_F(OptionsTest, CanTakeBackWhatTheSceneSwitchesOn) {
     scene.schlick = true;
     scene.integrator = INTEGRATOR_PHOTON_MAP;
     scene.showCaustic = scene.showPoints = true;
-    const Options options = render({"--fresnel", "exact", "--map", "global", "--show", "estimate"});
-    const Settings settings = options.override(scene);
+    const RenderOptions options = render({"--fresnel", "exact", "--map", "global", "--show", "estimate"});
+    const Settings settings = options.over(scene);
     EXPECT_FALSE(settings.schlick || settings.showCaustic || settings.showPoints);
 }
 
 TEST_F(OptionsTest, KnowsTheCommands) {
-    EXPECT_EQ(parse({"render", "--scene", "box.json"}).command, Command::Render);
-    EXPECT_EQ(parse({"devices"}).command, Command::Devices);
-    EXPECT_FALSE(parse({"devices"}).json);
-    EXPECT_TRUE(parse({"devices", "--json"}).json);
-    const Options bench = parse({"bench", "--json", "--scene", "box.json", "--device", "1"});
-    EXPECT_EQ(bench.command, Command::Bench);
+    EXPECT_TRUE(std::holds_alternative<RenderOptions>(parse({"render", "--scene", "box.json"})));
+    EXPECT_FALSE(std::get<DevicesOptions>(parse({"devices"})).json);
+    EXPECT_TRUE(std::get<DevicesOptions>(parse({"devices", "--json"})).json);
+    const auto bench = std::get<BenchOptions>(parse({"bench", "--json", "--scene", "box.json", "--device", "1"}));
     EXPECT_TRUE(bench.json);
     EXPECT_EQ(bench.scene, "box.json");
     EXPECT_EQ(bench.device, "1");
-    EXPECT_EQ(parse({"bench"}).scene, "");
-    const Options merge = parse({"merge", "all.exr", "b.exr", "--part", "a.exr"});
-    EXPECT_EQ(merge.command, Command::Merge);
+    EXPECT_EQ(std::get<BenchOptions>(parse({"bench"})).scene, "");
+    const auto merge = std::get<MergeOptions>(parse({"merge", "all.exr", "b.exr", "--part", "a.exr"}));
     EXPECT_EQ(merge.output, "all.exr");
     EXPECT_EQ(merge.parts, (std::vector<fs::path>{"b.exr", "a.exr"}));
-    EXPECT_TRUE(merge.part);
-    const Options compare = parse({"compare", "a.exr", "--json", "b.exr"});
-    EXPECT_EQ(compare.command, Command::Compare);
-    EXPECT_EQ(compare.parts, (std::vector<fs::path>{"a.exr", "b.exr"}));
+    EXPECT_TRUE(merge.isPart);
+    const auto compare = std::get<CompareOptions>(parse({"compare", "a.exr", "--json", "b.exr"}));
+    EXPECT_EQ(compare.image, "a.exr");
+    EXPECT_EQ(compare.reference, "b.exr");
     EXPECT_TRUE(compare.json);
     EXPECT_THAT(refusal({"compare", "a.exr"}), AllOf(HasSubstr("found 1 file;"), HasSubstr("vkpm compare IMAGE REFERENCE")));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "c.exr"}), HasSubstr("found 3 files;"));
@@ -154,14 +153,14 @@ TEST_F(OptionsTest, KnowsTheCommands) {
 }
 
 TEST_F(OptionsTest, ReadsWhatEndsSavesAndGoesOn) {
-    const Options options = render({"--time", "1.5", "--pass-range", "4:16", "--resume", "--checkpoint", "60", "--log", "l.jsonl", "--alpha", "1"});
+    const RenderOptions options = render({"--time", "1.5", "--pass-range", "4:16", "--resume", "--checkpoint", "60", "--log", "l.jsonl", "--alpha", "1"});
     EXPECT_EQ(options.seconds, 1.5);
     EXPECT_EQ(options.passRange->begin, 4u);
     EXPECT_EQ(options.passRange->end, 16u);
     EXPECT_TRUE(options.resume);
     EXPECT_EQ(options.checkpoint, 60.0);
     EXPECT_EQ(options.log, "l.jsonl");
-    EXPECT_EQ(options.override(Settings{}).alpha, 1.0f);
+    EXPECT_EQ(options.over(Settings{}).alpha, 1.0f);
     EXPECT_THAT(refusalOfRender({"--passes", "8", "--pass-range", "4:9"}), HasSubstr("passes below the 8"));
 }
 
@@ -169,15 +168,14 @@ TEST_F(OptionsTest, PrintsHelpAndVersion) {
     const Settings defaults;
     for (const auto& words : std::vector<std::vector<const char*>>{
              {}, {"--help"}, {"-h"}, {"render", "--help"}, {"--passes", "x", "--help"}, {"--unknown", "--help"}}) {
-        const Options options = parse(words);
-        EXPECT_EQ(options.command, Command::Print);
-        EXPECT_THAT(options.text, AllOf(HasSubstr("--caustic-photons"), HasSubstr("130"), HasSubstr("world units")));
-        EXPECT_THAT(options.text, HasSubstr(fmt::format("(default {})", defaults.photons)));
-        EXPECT_THAT(options.text, HasSubstr(fmt::format("(default {}x{})", defaults.size.x, defaults.size.y)));
+        const std::string help = text(words);
+        EXPECT_THAT(help, AllOf(HasSubstr("--caustic-photons"), HasSubstr("130"), HasSubstr("world units")));
+        EXPECT_THAT(help, HasSubstr(fmt::format("(default {})", defaults.photons)));
+        EXPECT_THAT(help, HasSubstr(fmt::format("(default {}x{})", defaults.size.x, defaults.size.y)));
     }
-    EXPECT_EQ(parse({"--version"}).text, "vkpm " VKPM_VERSION "\n");
-    EXPECT_THAT(parse({"compare", "--help"}).text, AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
-    EXPECT_THAT(parse({"devices", "--help"}).text, AllOf(HasSubstr("--json"), Not(HasSubstr("--scene"))));
+    EXPECT_EQ(text({"--version"}), "vkpm " VKPM_VERSION "\n");
+    EXPECT_THAT(text({"compare", "--help"}), AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
+    EXPECT_THAT(text({"devices", "--help"}), AllOf(HasSubstr("--json"), Not(HasSubstr("--scene"))));
 }
 
 TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
@@ -225,11 +223,10 @@ TEST_F(OptionsTest, RefusesWrongScenes) {
 }
 
 TEST_F(OptionsTest, AWindowTakesTheOptionsOfARender) {
-    const Options options = parse({"view", "--scene", "box.json", "--size", "64x48", "--passes", "3"});
-    EXPECT_EQ(options.command, Command::View);
+    const auto options = std::get<ViewOptions>(parse({"view", "--scene", "box.json", "--size", "64x48", "--passes", "3"}));
     EXPECT_EQ(options.size, uvec2(64, 48));
     EXPECT_EQ(options.output, "box.exr");
-    EXPECT_THAT(parse({"view", "--help"}).text, AllOf(HasSubstr("vkpm view --scene FILE"), HasSubstr("default no end"), HasSubstr("Closing it saves")));
+    EXPECT_THAT(text({"view", "--help"}), AllOf(HasSubstr("vkpm view --scene FILE"), HasSubstr("default no end"), HasSubstr("Closing it saves")));
     EXPECT_THAT(refusal({"view"}), HasSubstr("vkpm view --scene FILE"));
 }
 
@@ -254,8 +251,8 @@ TEST_F(OptionsTest, RefusesMissingRepeatedAndSuperfluousValues) {
 TEST_F(OptionsTest, RefusesPhotonMapOptionsElsewhere) {
     EXPECT_THAT(refusalOfRender({"--integrator", "path", "--map", "global"}),
                 AllOf(HasSubstr("--map"), HasSubstr("path"), HasSubstr("--integrator photon-map")));
-    const Options options = render({"--show", "estimate"});
-    EXPECT_THROW(options.override(Settings{}), InputError);
+    const RenderOptions options = render({"--show", "estimate"});
+    EXPECT_THROW(options.over(Settings{}), InputError);
 }
 
 } // namespace

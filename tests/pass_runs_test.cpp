@@ -1,7 +1,8 @@
 /// Sums of passes: the same runs and the same bits however a range of passes is split, and means that are right.
 #include "judge.h"
 #include "map.h"
-#include "output/error_estimate.h"
+#include "render/error_estimate.h"
+#include "render/features.h"
 #include "render/film.h"
 #include "render/noise.h"
 #include "runs_of.h"

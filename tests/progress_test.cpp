@@ -1,5 +1,5 @@
 /// How progress is reported, and what Ctrl-C does.
-#include "output/interrupt.h"
+#include "interrupt.h"
 #include "output/progress.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 /// The trace and shadow kernels against Embree in the shipped scenes; double precision judges where the two differ.
 #include "bench/embree_scene.h"
+#include "render/features.h"
 #include "scene_on_device.h"
 #include "scene_rays.h"
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 /// Reports of error against run time, as the program writes them, and whether their pages open in a browser.
-#include "output/report.h"
+#include "measure/report.h"
 #include "program.h"
 #include <cmath>
 #include <gmock/gmock.h>

@@ -2,7 +2,7 @@
 #pragma once
 #include "scene/box.h"
 #include "map.h"
-#include "render/device_scene.h"
+#include "render/uploaded_scene.h"
 #include "scene/bvh.h"
 
 namespace vkpm {

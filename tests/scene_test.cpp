@@ -1,4 +1,5 @@
 /// The scene loader: what it makes of cameras, materials, shapes, transforms, meshes and lights.
+#include "render/features.h"
 #include "scene/bounding_sphere.h"
 #include "scene/scene.h"
 #include "scene_text.h"

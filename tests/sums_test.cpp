@@ -1,6 +1,7 @@
 /// A hundred thousand passes of a tiny image: means and the spread between passes against sums in double precision.
 #include "judge.h"
 #include "map.h"
+#include "render/features.h"
 #include "render/film.h"
 #include "render/noise.h"
 #include "runs_of.h"

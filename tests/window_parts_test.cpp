@@ -1,7 +1,7 @@
 /// What the window computes: views, cameras as text, tones, and whether a scene has changed.
 #include "output/film_image.h"
 #include "render_support.h"
-#include "window/camera_json.h"
+#include "scene/camera_json.h"
 #include "window/picture.h"
 #include "window/scene_watch.h"
 #include "window/tone.h"

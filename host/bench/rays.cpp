@@ -2,7 +2,8 @@
 #include "bench/rays.h"
 #include "bench/whole_queue.h"
 #include "gpu/recording.h"
-#include "render/device_scene.h"
+#include "render/features.h"
+#include "render/uploaded_scene.h"
 #include <tbb/parallel_for.h>
 
 namespace vkpm {

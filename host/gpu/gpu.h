@@ -1,6 +1,6 @@
 /// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files here use.
 #pragma once
-#include "gpu/error.h"
+#include "error.h"
 #include <atomic>
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 /// The Vulkan instance, of the renderer's device and of the window's.
 #pragma once
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
-#include "gpu/error.h"
+#include "error.h"
 #include <span>
 #include <vulkan/vulkan_raii.hpp>
 

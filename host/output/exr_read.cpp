@@ -1,6 +1,6 @@
 /// Reading of OpenEXR files: the flat parts of a file as one picture.
 #include "output/exr.h"
-#include "gpu/error.h"
+#include "error.h"
 #include "output/channel_names.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

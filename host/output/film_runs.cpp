@@ -1,7 +1,7 @@
 /// Sums of passes to channels and back.
 #include "output/film_runs.h"
-#include "gpu/error.h"
-#include "settings.h"
+#include "error.h"
+#include "scene/settings.h"
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 /// How far a render is: one line redrawn on a terminal, a line now and then elsewhere.
 #include "output/progress.h"
-#include "output/interrupt.h"
+#include "interrupt.h"
 #include "output/messages.h"
 #include <algorithm>
 #include <cmath>

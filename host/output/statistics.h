@@ -1,6 +1,6 @@
 /// What a render did and what it took, as one JSON object.
 #pragma once
-#include "output/error_estimate.h"
+#include "render/error_estimate.h"
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>

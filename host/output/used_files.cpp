@@ -1,6 +1,6 @@
 /// Names to files.
 #include "output/used_files.h"
-#include "gpu/error.h"
+#include "error.h"
 #include <fmt/format.h>
 
 namespace vkpm {

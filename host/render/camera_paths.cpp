@@ -1,5 +1,6 @@
 /// The camera loop: eye, then trace, shade, shadow and gather until no path is under way.
 #include "render/camera_paths.h"
+#include "render/features.h"
 #include <algorithm>
 #include <cmath>
 

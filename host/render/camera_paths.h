@@ -1,7 +1,7 @@
 /// The camera pass: a wavefront of eye paths, their shadow rays and their questions to the photon maps.
 #pragma once
 #include "render/compaction.h"
-#include "render/device_scene.h"
+#include "render/uploaded_scene.h"
 #include <optional>
 
 namespace vkpm {

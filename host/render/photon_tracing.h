@@ -1,7 +1,7 @@
 /// Photons from the lights to the diffuse surfaces where they arrive.
 #pragma once
 #include "render/compaction.h"
-#include "render/device_scene.h"
+#include "render/uploaded_scene.h"
 #include <optional>
 
 namespace vkpm {

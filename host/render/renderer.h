@@ -1,6 +1,7 @@
 /// The renderer: decides which stages a scene needs and what runs when.
 #pragma once
 #include "render/camera_paths.h"
+#include "render/features.h"
 #include "render/film.h"
 #include "render/guide.h"
 #include "render/light_tracing.h"

@@ -1,7 +1,5 @@
-/// What a scene gives the kernels besides its arrays: the camera and the features.
-#include "scene/glass.h"
-#include "scene/lights.h"
-#include <algorithm>
+/// The pinhole camera of a view.
+#include "scene/scene.h"
 #include <cmath>
 
 namespace vkpm {
@@ -14,94 +12,6 @@ Camera pinholeCamera(const View& view, uvec2 size) {
     const dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(dvec3{view.up})));
     const dvec3 up = glm::cross(right, forward);
     return {view.origin, vec3{forward}, vec3{right * (tangent * aspect)}, vec3{up * tangent}};
-}
-
-void askFor(uint layers, Features& features) {
-    features.hasEmissionLayer &= layers >> LAYER_EMISSION;
-    features.hasDirectLayer &= layers >> LAYER_DIRECT;
-    features.hasSpecularLayer &= layers >> LAYER_SPECULAR;
-    features.hasCausticLayer &= layers >> LAYER_CAUSTIC;
-    features.hasIndirectLayer &= layers >> LAYER_INDIRECT;
-    features.hasAlbedo &= layers >> ASK_ALBEDO;
-    features.hasNormal &= layers >> ASK_NORMAL;
-    features.hasDepth &= layers >> ASK_DEPTH;
-    features.hasNoise &= layers >> ASK_NOISE;
-    features.hasBias &= layers >> ASK_BIAS;
-}
-
-bool asksLights(const Features& f, const Settings& settings) {
-    return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse && (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
-}
-
-bool tracesLight(const Features& f, const Settings& settings) { return settings.integrator == INTEGRATOR_LIGHT && f.hasCausticLayer; }
-
-bool asksMaps(const Features& f) { return f.hasGlobalMap || f.hasCausticMap; }
-
-/// Leaves out the layers that cannot have any light and the maps that no layer needs, by what the settings ask for and by
-/// materials that the features know: for the general program, all.
-static void chooseLayers(Features& f, const Settings& settings) {
-    const bool photon = settings.integrator == INTEGRATOR_PHOTON;
-    const bool path = settings.integrator == INTEGRATOR_PATH;
-    const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
-    const bool light = settings.integrator == INTEGRATOR_LIGHT;
-    const bool specular = f.hasMirror || f.hasGlass;
-    const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && f.hasDiffuse;
-    const bool caustic = (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
-    askFor(settings.layers, f);
-    f.hasEmissionLayer &= !map && !light;
-    f.hasDirectLayer &= !map && !light && f.hasDiffuse;
-    f.hasSpecularLayer &= !light && specular;
-    f.hasCausticLayer &= caustic || (path && f.hasDiffuse && specular);
-    f.hasIndirectLayer &= global || (path && f.hasDiffuse);
-    f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
-    f.hasCausticMap = caustic && !light && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
-    f.hasBias &= asksMaps(f) && !settings.showPoints;
-}
-
-Features sceneFeatures(const Scene& scene, const Settings& settings) {
-    Features features;
-#ifndef NDEBUG
-    features.checksFeatures = 1;
-#endif
-    if (settings.allFeatures) {
-        features.stackSize = std::max(features.stackSize, scene.stackSize);
-        chooseLayers(features, settings);
-        return features;
-    }
-    const auto anyMaterial = [&](auto&& is) {
-        return std::ranges::any_of(scene.primitives, [&](const Primitive& p) { return is(scene.materials[p.material]); });
-    };
-    const auto anyLight = [&](auto&& is) { return std::ranges::any_of(scene.lights, is); };
-    features.hasTriangles = scene.triangleCount > 0;
-    features.hasSpheres = scene.primitives.size() > scene.triangleCount;
-    features.hasSmoothNormals = !scene.normals.empty();
-    features.hasSmoothDiffuse = std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
-        return p.normals != NONE && scene.materials[p.material].kind == MATERIAL_DIFFUSE;
-    });
-    features.hasMirror = anyMaterial([](const Material& m) { return m.kind == MATERIAL_MIRROR; });
-    features.hasGlass = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS; });
-    features.hasContact = features.hasGlass != 0 && glassMayTouchOpaque(scene);
-    features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
-    features.hasExactFresnel = features.hasGlass && !settings.schlick;
-    features.hasSchlickFresnel = features.hasGlass && settings.schlick;
-    features.hasManyLights = scene.lights.size() > 1;
-    features.hasRectangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_RECTANGLE; });
-    features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
-    features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
-    features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
-    features.hasGuide = 0; // the renderer finds out
-    uint farLights = 0;
-    for (const Light& light : scene.lights)
-        if (isFar(scene, light)) farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
-    features.hasFarLights = std::min(farLights, 2u);
-    features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
-    chooseLayers(features, settings);
-    features.hasNearest = settings.nearest > 0;
-    features.hasRadiusField = features.hasCausticMap && !settings.causticRadius && settings.nearest == 0;
-    features.densityKernel = settings.kernel;
-    features.integrator = settings.integrator;
-    features.stackSize = scene.stackSize;
-    return features;
 }
 
 } // namespace vkpm

@@ -1,8 +1,8 @@
 /// A scene as arrays of the structs that kernels read, and the loader that fills them from a JSON file.
 #pragma once
-#include "gpu/error.h"
+#include "error.h"
 #include "scene/coordinates.h"
-#include "settings.h"
+#include "scene/settings.h"
 #include "shared.h"
 #include <filesystem>
 #include <limits>
@@ -23,6 +23,8 @@ struct View {
     vec3 up{0, 1, 0};
     float fieldOfView = glm::radians(40.0f);
     Coordinates coordinates{}; // of origin and target
+
+    bool operator==(const View&) const = default;
 };
 
 struct Scene {
@@ -54,18 +56,5 @@ Scene loadScene(const std::filesystem::path& file);
 
 /// The pinhole camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);
-
-/// What the scene has, as specialization constants; settings add integrator, kernel, Fresnel and the layers asked for.
-Features sceneFeatures(const Scene& scene, const Settings& settings);
-
-/// Leaves out the layers that nobody asked for; `layers` are bits by place in layerNames.
-void askFor(uint layers, Features& features);
-
-/// Whether any camera path asks a light for its direct part, whether any asks a photon map.
-bool asksLights(const Features& features, const Settings& settings);
-bool asksMaps(const Features& features);
-
-/// Whether photons are connected to the camera.
-bool tracesLight(const Features& features, const Settings& settings);
 
 } // namespace vkpm

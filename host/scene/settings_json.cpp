@@ -6,16 +6,14 @@
 namespace vkpm {
 
 std::string settingsJson(const Settings& s) {
-    const char* const kernels[] = {"constant", "cone", "gauss", "epanechnikov"};
-    const char* const integrators[] = {"photon", "path", "direct", "photon-map", "light"};
     nlohmann::ordered_json json{{"size", {s.size.x, s.size.y}},
-                                {"integrator", integrators[s.integrator]},
+                                {"integrator", integratorNames[s.integrator]},
                                 {"photons", s.photons},
                                 {"causticPhotons", s.causticPhotons},
                                 {"gatherRays", s.gatherRays},
                                 {"nearest", s.nearest},
                                 {"alpha", s.alpha},
-                                {"kernel", kernels[s.kernel]},
+                                {"kernel", kernelNames[s.kernel]},
                                 {"fresnel", s.schlick ? "schlick" : "exact"},
                                 {"seed", s.seed}};
     if (s.layers != allLayers) {

@@ -1,6 +1,6 @@
 /// Settings as text, for the files that a render writes.
 #pragma once
-#include "settings.h"
+#include "scene/settings.h"
 #include <string>
 
 namespace vkpm {

@@ -1,6 +1,6 @@
 /// Reading of text files, and messages about them.
 #include "scene/text.h"
-#include "gpu/error.h"
+#include "error.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>

@@ -136,7 +136,7 @@ void radiusSlider(const char* name, const std::optional<GatherRadii>& radii, con
 void chooseSettings(const RenderState& state, PanelChoices& choices) {
     if (!ImGui::CollapsingHeader("Settings")) return;
     const Settings& s = state.settings;
-    Options& o = choices.options;
+    RenderOptions& o = choices.options;
     ImGui::PushItemWidth(0.42f * ImGui::GetWindowWidth());
     countSlider("photons", s.photons, 100, 10'000'000, o.photons);
     countSlider("caustic photons", s.causticPhotons, 100, 10'000'000, o.causticPhotons);

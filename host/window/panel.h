@@ -1,6 +1,6 @@
 /// The panel beside the picture: how the render stands, and what may be changed.
 #pragma once
-#include "options.h"
+#include "job/options.h"
 #include "window/controls.h"
 #include "window/picture.h"
 
@@ -23,7 +23,7 @@ struct PanelChoices {
     bool follows = false; // the film has the size of the window
     bool paused = false;
     bool looksAbout = false;
-    Options options{};
+    RenderOptions options{};
     std::vector<Action> actions{};
 };
 

@@ -1,14 +1,10 @@
 /// What passes from the thread that renders to the window.
 #pragma once
-#include "output/error_estimate.h"
+#include "render/error_estimate.h"
 #include "output/statistics.h"
 #include "scene/scene.h"
 
 namespace vkpm {
-
-inline bool operator==(const View& a, const View& b) {
-    return a.origin == b.origin && a.target == b.target && a.up == b.up && a.fieldOfView == b.fieldOfView && a.coordinates == b.coordinates;
-}
 
 /// A photon that is shown as a point.
 struct PhotonPoint {

@@ -2,10 +2,10 @@
 #include "window/render_thread.h"
 #include "gpu/audit.h"
 #include "output/atomic_file.h"
-#include "output/interrupt.h"
+#include "interrupt.h"
 #include "output/messages.h"
 #include "scene/settings_json.h"
-#include "window/camera_json.h"
+#include "scene/camera_json.h"
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ static void giveWay() {
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
 }
 
-RenderThread::RenderThread(const Options& asked, EventLog& events, std::function<void()> call) : wake(std::move(call)), log(events) {
+RenderThread::RenderThread(const RenderOptions& asked, EventLog& events, std::function<void()> call) : wake(std::move(call)), log(events) {
     wanted.options = asked;
     thread = std::jthread([this] { run(); });
 }
@@ -33,7 +33,7 @@ void RenderThread::wish(const std::function<void(Wishes&)>& change) {
     change(wanted);
     version++;
     const bool anew = wanted.moving || wanted.discard || wanted.view != before.view || wanted.reloads != before.reloads ||
-                      settingsJson(wanted.options.override({})) != settingsJson(before.options.override({}));
+                      settingsJson(wanted.options.over({})) != settingsJson(before.options.over({}));
     if (leavable && (anew || (wanted.close && shared.passes == 0))) cancel = true;
     changed.notify_all();
 }
@@ -190,7 +190,7 @@ void RenderThread::adopt(std::unique_ptr<Session> next) {
 }
 
 void RenderThread::openDevice() {
-    const Options& options = session->options;
+    const RenderOptions& options = session->options;
     gpu.emplace(options.device);
     gpu->cancel = &cancel;
     gpu->timesKernels = options.stats.has_value();
@@ -228,7 +228,7 @@ void RenderThread::beginAnew() {
 /// Has a job for the wishes; false if there was something else to do.
 bool RenderThread::follow(const Wishes& wish) {
     Settings& settings = session->settings;
-    const Settings next = wish.options.override(session->scene.settings);
+    const Settings next = wish.options.settingsOf(session->scene.settings);
     const bool sameButSize = [&] {
         Settings resized = next;
         resized.size = settings.size;

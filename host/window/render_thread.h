@@ -1,6 +1,6 @@
 /// The thread that renders for a window: it takes wishes, and gives pictures.
 #pragma once
-#include "render_job.h"
+#include "job/render_job.h"
 #include "window/draft.h"
 #include "window/picture.h"
 #include <condition_variable>
@@ -12,7 +12,7 @@ namespace vkpm {
 
 /// What the window wants; the thread sees to it as soon as it can.
 struct Wishes {
-    Options options{};          // the command line's, with the panel's values over them
+    RenderOptions options{};          // the command line's, with the panel's values over them
     std::optional<View> view{}; // absent: the scene's
     bool moving = false;        // drafts of the view, until it rests
     bool paused = false;
@@ -26,9 +26,9 @@ struct Wishes {
 /// A scene with settings, and what renders it. The next one is made before this one is let go, so that what cannot be rendered costs
 /// no passes.
 struct Session {
-    Options options;
+    RenderOptions options;
     Scene scene; // with the view that is rendered
-    Settings settings = options.override(scene.settings);
+    Settings settings = options.settingsOf(scene.settings);
     std::string loadedText = scene.text; // as the file has them
     View loadedView = scene.view;
     std::optional<RenderJob> job{};
@@ -38,7 +38,7 @@ struct Session {
 class RenderThread {
 public:
     /// Begins with loading the scene. `wake` is called whenever there is something new, from the thread.
-    RenderThread(const Options& options, EventLog& log, std::function<void()> wake);
+    RenderThread(const RenderOptions& options, EventLog& log, std::function<void()> wake);
     ~RenderThread();
 
     /// Changes the wishes; a pass that they make useless is left.

@@ -1,7 +1,7 @@
 /// One turn of the loop: wait, take events, wish, draw.
 #include "window/viewer.h"
-#include "output/interrupt.h"
-#include "window/camera_json.h"
+#include "interrupt.h"
+#include "scene/camera_json.h"
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -15,7 +15,7 @@ const double idleSeconds = 0.25;  // at most between turns
 
 } // namespace
 
-Viewer::Viewer(const Options& options, Window& shownIn, RenderThread& renders, EventLog& events, Clock::time_point begun)
+Viewer::Viewer(const RenderOptions& options, Window& shownIn, RenderThread& renders, EventLog& events, Clock::time_point begun)
     : commandLine(options), window(shownIn), thread(renders), log(events), start(begun), sceneWatch(options.scene) {
     choices.options = options;
     state = thread.state();
@@ -136,15 +136,15 @@ void Viewer::followWindow() {
         lastResize = Clock::now();
         settling = 2;
     }
-    Options options = choices.options;
+    RenderOptions options = choices.options;
     options.size = commandLine.size;
     const int width = int(lastSize.x) - (panel ? panelWidth(window.scale()) : 0), height = int(lastSize.y);
     if (choices.follows && width > 0 && height > 0) options.size = secondsSince(lastResize) > settleSeconds ? uvec2(width, height) : thread.wishes().options.size;
-    const auto facts = [](const Options& o) {
-        const Settings s = o.override({});
+    const auto facts = [](const RenderOptions& o) {
+        const Settings s = o.over({});
         return std::tuple(s.size, s.photons, s.causticPhotons, s.gatherRays, s.radius, s.causticRadius, s.alpha, s.kernel);
     };
-    const Options& wished = thread.wishes().options;
+    const RenderOptions& wished = thread.wishes().options;
     if (facts(options) != facts(wished) || options.size.has_value() != wished.size.has_value()) thread.wish([&](Wishes& w) { w.options = options; });
     if (choices.photons != thread.wishes().photons) thread.wish([&](Wishes& w) { w.photons = choices.photons; });
 }

@@ -12,7 +12,7 @@ namespace vkpm {
 class Viewer {
 public:
     /// `start` is when the program began.
-    Viewer(const Options& options, Window& window, RenderThread& thread, EventLog& log, Clock::time_point start);
+    Viewer(const RenderOptions& options, Window& window, RenderThread& thread, EventLog& log, Clock::time_point start);
 
     /// Until the window is closed, the program interrupted or the thread has ended.
     void run();
@@ -35,7 +35,7 @@ private:
     double draftsPerSecond() const;
     View viewNow() const { return view.value_or(state.sceneView); }
 
-    Options commandLine;
+    RenderOptions commandLine;
     Window& window;
     RenderThread& thread;
     EventLog& log;

@@ -1,0 +1,262 @@
+/// The command line.
+#include "commands/options.h"
+#include "commands/option_parser.h"
+#include "measure/layer_error.h"
+#include <array>
+
+namespace vkpm {
+namespace {
+
+/// The words of a table of names, by number.
+template <std::size_t count> Words wordsOf(const std::array<const char*, count>& names) {
+    Words words;
+    for (uint i = 0; i < count; i++) words.emplace_back(names[i], i);
+    return words;
+}
+
+const Words INTEGRATORS = wordsOf(integratorNames);
+const Words MAPS{{"global", 0}, {"caustic", 1}};
+const Words SHOWS{{"estimate", 0}, {"points", 1}};
+const Words KERNELS = wordsOf(kernelNames);
+const Words PROGRAMS{{"scene", 0}, {"all", 1}};
+const Words FRESNELS{{"exact", 0}, {"schlick", 1}};
+
+void addDevice(Parser& parser, std::string& device) {
+    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)", [&](auto&, auto& value) { device = value; });
+}
+
+void addMachine(Parser& parser, RenderOptions& options) {
+    parser.words("--features", PROGRAMS, "compile kernels for this scene, or with everything switched on (default scene)",
+                 [&](uint value) { options.allFeatures = value; });
+    addDevice(parser, options.device);
+}
+
+void addFiles(Parser& parser, RenderOptions& options) {
+    parser.group("Files");
+    parser.add("--scene", "FILE", "scene to render (JSON); required",
+               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("-o,--output", "FILE.exr", "image; a PNG is written beside it (default: the scene's name, here)",
+               [&](auto& name, auto& value) { options.output = exrOf(name, value); });
+    parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory",
+               [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
+    parser.add("--report", "FOLDER", "error against run time while rendering: error.csv, and a page index.html",
+               [&](auto&, auto& value) { options.report = value; });
+    parser.add("--reference", "FILE.exr", "what --report measures the error against; without it, the render's own estimates",
+               [&](auto&, auto& value) { options.reference = value; });
+    parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
+               [&](auto& name, auto& value) { options.log = outputOf(name, value); });
+    parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
+    parser.flag("--no-resume", "save the picture and its layers alone, in half the bytes, without the sums from which --resume and merge go on", options.withoutSums);
+    parser.flag("--half", "save layers, but for depth, as 16-bit floats", options.half);
+    parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)",
+               [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
+}
+
+void addImage(Parser& parser, RenderOptions& options, const Settings& defaults, const std::string& passes) {
+    const auto count = [&](const std::string& name, const std::string& help, uint low, uint high, auto& target) {
+        parser.add(name, "N", help,
+                   [=, &target](auto& option, auto& text) { target = countOf(option, text, low, high); });
+    };
+    parser.group("Image (overrides the scene file, which overrides the defaults)");
+    parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y),
+               [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
+    count("--passes", fmt::format("passes over the whole image (default {})", passes), 1, MAX_COUNT, options.passes);
+    parser.add("--time", "SECONDS", "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
+               [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
+    parser.add("--target-error", "E", "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
+               [&](auto& name, auto& value) { options.targetError = errorOf(name, value); });
+    parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge",
+               [&](auto& name, auto& value) { options.passRange = passRangeOf(name, value); });
+    count("--seed", fmt::format("seed of the random numbers (default {})", defaults.seed), 0, NONE, options.seed);
+    parser.words("--integrator", INTEGRATORS,
+                 fmt::format("how light is found (default {})", wordOf(INTEGRATORS, defaults.integrator)),
+                 [&](uint value) { options.integrator = value; });
+    parser.words("--map", MAPS, fmt::format("photon-map: which map (default {})", wordOf(MAPS, defaults.showCaustic)),
+                 [&](uint value) { options.showCaustic = value; });
+    parser.words("--show", SHOWS, fmt::format("photon-map: as what (default {})", wordOf(SHOWS, defaults.showPoints)),
+                 [&](uint value) { options.showPoints = value; });
+    parser.words("--fresnel", FRESNELS,
+                 fmt::format("reflectance of glass (default {})", wordOf(FRESNELS, defaults.schlick)),
+                 [&](uint value) { options.schlick = value; });
+    parser.add("--layers", "A,B,...", fmt::format("render only these; beauty is the sum of the lights' parts among them: {} (default all)", fmt::join(layerNames, ", ")),
+               [&](auto& name, auto& value) { options.layers = layersOf(name, value); });
+}
+
+void addPhotons(Parser& parser, RenderOptions& options, const Settings& defaults) {
+    const auto count = [&](const std::string& name, const std::string& help, auto& target) {
+        parser.add(name, "N", help, [&](auto& option, auto& text) { target = countOf(option, text, 0, MAX_COUNT); });
+    };
+    const auto radius = [&](const std::string& name, const std::string& help, auto& target) {
+        parser.add(name, "R", help, [&](auto& option, auto& text) { target = radiusOf(option, text); });
+    };
+    parser.group("Photons (likewise)");
+    count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
+    count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
+          options.causticPhotons);
+    parser.add("--gather-rays", "N", fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", mostGatherRays, defaults.gatherRays),
+               [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, mostGatherRays); });
+    radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
+    radius("--caustic-radius", "the same for caustics", options.causticRadius);
+    count("--nearest", fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
+          options.nearest);
+    parser.add("--alpha", "A", fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
+               [&](auto& name, auto& value) { options.alpha = alphaOf(name, value); });
+    parser.words("--kernel", KERNELS,
+                 fmt::format("of the density estimate (default {})", wordOf(KERNELS, defaults.kernel)),
+                 [&](uint value) { options.kernel = value; });
+}
+
+const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
+  render                         render without a window; may be left out
+  view --scene FILE [options]    the same render in a window, progressively
+  plan --scene FILE [--json]     say what a scene needs, what is left out and why, memory by buffer
+  compare IMAGE REFERENCE [--json]
+                                 error measures between two EXR files, layer by layer
+  merge OUT.exr PART.exr...      put parts that --pass-range rendered together
+  devices [--json]               list the Vulkan devices and what each lacks
+  bench [--json] [--scene FILE] [--device INDEX|NAME]
+                                 measure rays, sort, gather and memory rates
+  bench --features SCENE.json... [--json] [--device INDEX|NAME]
+                                 what leaving out saves: start-up, time, memory
+
+Counts may be written as 200000 or 2e5.
+
+Exit codes:
+  0    done
+  1    the environment failed: no device, disk full, out of memory
+  2    the command line or an input file is wrong
+  130  interrupted (Ctrl-C or SIGTERM); everything rendered so far is saved)";
+
+void requireRender(RenderOptions& options) {
+    if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.isEndless ? " view" : ""));
+    if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
+    requireFilesApart(options, std::array{options.scene});
+    if (options.passRange && options.passes && options.passRange->end > *options.passes)
+        refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
+               fmt::format("passes below the {} of --passes", *options.passes));
+    if (options.reference && !options.report) refuse("--reference", options.reference->string(), "only with --report FOLDER, which shows what is measured");
+    if (options.integrator) requirePhotonMap(options, *options.integrator);
+    const auto needsSums = [&](const char* name, bool given) {
+        if (given && options.withoutSums) throw InputError(fmt::format("{}: found with --no-resume; allowed: one of the two, since it needs the sums that --no-resume leaves out", name));
+    };
+    needsSums("--resume", options.resume);
+    needsSums("--checkpoint", options.checkpoint.has_value());
+    needsSums("--pass-range", options.passRange.has_value());
+}
+
+const char* const WINDOW = R"(Renders until --passes, --time or --target-error, without these until the window is
+closed. Closing it saves --output with all finished passes, the file that
+vkpm --scene FILE --passes N writes. The panel lists keys and mouse; Tab hides it.
+Without a display the exit code is 1.)";
+
+/// Of render and of view, which differ in when they end.
+template <class Asked> Options parseRender(std::span<const std::string> arguments) {
+    Asked options;
+    const bool window = std::is_same_v<Asked, ViewOptions>;
+    options.isEndless = window;
+    Parser parser(window ? "Render a scene in a window, progressively." : "vkpm, a photon mapping renderer in Vulkan compute.",
+                  window ? "vkpm view --scene FILE [options]" : "vkpm [render] --scene FILE [options]");
+    const Settings defaults;
+    addFiles(parser, options);
+    addImage(parser, options, defaults, window ? "no end" : std::to_string(defaults.passes));
+    addPhotons(parser, options, defaults);
+    parser.group("Machine");
+    addMachine(parser, options);
+    parser.flag("--quiet", "no progress on stderr", options.quiet);
+    parser.footer(window ? WINDOW : COMMANDS);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    requireRender(options);
+    return options;
+}
+
+Options parsePlan(std::span<const std::string> arguments) {
+    PlanOptions options;
+    const Settings defaults;
+    Parser parser("Say what a scene needs, what is left out and why, and how much memory it takes. Renders one pass.",
+                  "vkpm plan --scene FILE [options]");
+    parser.add("--scene", "FILE", "scene (JSON); required", [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.flag("--json", "as JSON", options.json);
+    addImage(parser, options, defaults, std::to_string(defaults.passes));
+    addPhotons(parser, options, defaults);
+    parser.group("Machine");
+    addMachine(parser, options);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm plan --scene FILE");
+    return options;
+}
+
+Options parseCompare(std::span<const std::string> arguments) {
+    CompareOptions options;
+    Parser parser("Measure how far an image is off a reference, layer by layer. Needs no device.", "vkpm compare IMAGE REFERENCE [--json]");
+    parser.files("files", "the image, then its reference (EXR)", [&](auto& values) {
+        if (values.size() != 2)
+            throw InputError(fmt::format("compare: found {} file{}; allowed: two, as in vkpm compare IMAGE REFERENCE", values.size(), values.size() == 1 ? "" : "s"));
+        options.image = values[0];
+        options.reference = values[1];
+    });
+    parser.flag("--json", "as JSON, with null for what cannot be said", options.json);
+    parser.footer(MEASURES);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    return options;
+}
+
+Options parseMerge(std::span<const std::string> arguments) {
+    MergeOptions options;
+    Parser parser("Put parts of one render, made with --pass-range, together.", "vkpm merge OUT.exr PART.exr... [options]");
+    parser.files("files", "the merged image, then its parts in any order", [&](auto& values) {
+        if (values.size() < 2) throw InputError("merge: found fewer than two files; allowed: vkpm merge OUT.exr PART.exr...");
+        options.output = exrOf("OUT.exr", values[0]);
+        options.parts.assign(values.begin() + 1, values.end());
+    });
+    parser.flag("--part", "allow a result that does not begin with pass 0", options.isPart);
+    addDevice(parser, options.device);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    return options;
+}
+
+Options parseDevices(std::span<const std::string> arguments) {
+    DevicesOptions options;
+    Parser parser("List the Vulkan devices and what each lacks.", "vkpm devices [--json]");
+    parser.flag("--json", "as JSON", options.json);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    return options;
+}
+
+Options parseBench(std::span<const std::string> arguments) {
+    BenchOptions options;
+    Parser parser("Measure rays, sort, gather and memory rates; or what a program compiled for a scene saves.",
+                  "vkpm bench [options], vkpm bench --features SCENE.json...");
+    parser.flag("--json", "as JSON", options.json);
+    parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)",
+               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.flag("--features", "start-up, time and memory of the program for each scene against the general one's", options.features);
+    parser.files("files", "scenes for --features", [&](auto& values) {
+        if (options.features && values.empty()) throw InputError("bench: --features: found no scene; allowed: one or more, as in vkpm bench --features scenes/box.json");
+        if (!options.features && !values.empty()) throw InputError(fmt::format("bench: found \"{}\"; allowed: --scene {}", values[0], values[0]));
+        for (const std::string& value : values) options.scenes.push_back(sceneOf("--features", value));
+    });
+    addDevice(parser, options.device);
+    if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
+    return options;
+}
+
+const std::pair<const char*, Options (*)(std::span<const std::string>)> PARSERS[]{
+    {"render", parseRender<RenderOptions>}, {"view", parseRender<ViewOptions>}, {"plan", parsePlan}, {"compare", parseCompare},
+    {"merge", parseMerge}, {"devices", parseDevices}, {"bench", parseBench}};
+
+} // namespace
+
+Options parseOptions(int count, const char* const* arguments) {
+    std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
+    if (words.empty()) words.push_back("--help");
+    if (words[0].starts_with('-')) return parseRender<RenderOptions>(words);
+    std::vector<std::string> known;
+    for (const auto& [name, parse] : PARSERS) {
+        if (words[0] == name) return parse(std::span(words).subspan(1));
+        known.push_back(name);
+    }
+    const std::string help = fs::path(words[0]).has_extension() ? "; a scene is given as --scene " + words[0] : suggestion(words[0], known);
+    throw InputError(fmt::format("found command \"{}\"; allowed: {}{}", words[0], fmt::join(known, ", "), help));
+}
+
+} // namespace vkpm

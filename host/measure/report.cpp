@@ -1,0 +1,93 @@
+/// The rows of a report, and the file that holds them.
+#include "measure/report.h"
+#include "error.h"
+#include "output/atomic_file.h"
+#include "output/exr.h"
+#include "measure/report_page.h"
+#include "scene/settings.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vkpm {
+namespace {
+
+/// The layers whose sum is beauty, and beauty.
+bool isLight(const Layer& layer) {
+    const auto end = layerNames.begin() + LAYER_COUNT;
+    return layer.isColour && (layer.name == "beauty" || std::find(layerNames.begin(), end, layer.name) != end);
+}
+
+/// A number of the table; nothing where there is none.
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+
+std::string estimateCells(const std::optional<ErrorEstimate>& e) {
+    return e ? fmt::format("{},{},{}", cell(e->noise), cell(e->bias), cell(e->error)) : ",,";
+}
+
+std::string tableOf(const std::vector<ReportRow>& rows) {
+    std::string text = "pass,seconds,rays,photons,layer,rmse,relmse,mean_error,flip,noise,bias,error\n";
+    for (const ReportRow& row : rows) {
+        const std::string begin = fmt::format("{},{:.4f},{},{}", row.passes, row.seconds, row.rays, row.photons);
+        if (row.layers.empty()) text += fmt::format("{},beauty,,,,,{}\n", begin, estimateCells(row.estimate));
+        for (const auto& [name, e] : row.layers)
+            text += fmt::format("{},{},{},{},{},{},{}\n", begin, name, cell(e.rmse), cell(e.relmse), cell(e.meanError), cell(e.flip),
+                                name == "beauty" ? estimateCells(row.estimate) : ",,");
+    }
+    return text;
+}
+
+} // namespace
+
+Report::Report(std::filesystem::path where, const std::optional<std::filesystem::path>& against, uvec2 size) : folder(std::move(where)), referenceFile(against) {
+    if (referenceFile) {
+        reference = readExr(*referenceFile);
+        requireSize(size);
+        if (std::ranges::none_of(imageLayers(*reference), isLight))
+            throw InputError(fmt::format("{}: --reference: has no channels R, G and B", referenceFile->string()));
+    }
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw std::runtime_error(fmt::format("{}: --report: the folder cannot be made: {}", folder.string(), error.message()));
+    for (const char* file : files) requireWritable(folder / file);
+}
+
+void Report::requireSize(uvec2 size) const {
+    if (reference && reference->size != size)
+        throw InputError(fmt::format("{}: --reference: has {}x{} pixels; allowed: the {}x{} of the render, or another --size", referenceFile->string(), reference->size.x,
+                                     reference->size.y, size.x, size.y));
+}
+
+bool Report::due(uint passes) {
+    for (double next = 1; next < double(passes) + 1; next *= std::sqrt(2.0))
+        if (std::lround(next) == long(passes)) return true;
+    return false;
+}
+
+void Report::add(ReportRow row, const Image& image) {
+    if (!all.empty() && all.back().passes == row.passes) return;
+    if (reference) {
+        const std::vector<Layer> references = imageLayers(*reference);
+        for (const Layer& layer : imageLayers(image))
+            if (const Layer* other = isLight(layer) ? comparableIn(references, layer) : nullptr) row.layers[layer.name] = measureLayer(layer, *other);
+    }
+    all.push_back(std::move(row));
+    replaceFile(folder / "error.csv", tableOf(all));
+}
+
+void Report::finish(const Image& image, std::span<const uint> picture, const std::vector<std::pair<std::string, std::string>>& facts) const {
+    replaceFile(folder / "index.html", reportPage(all, image, picture, reference ? &*reference : nullptr, facts));
+}
+
+double fittedSlope(std::span<const double> xs, std::span<const double> ys) {
+    double n = 0, sumX = 0, sumY = 0, sumXX = 0, sumXY = 0;
+    for (std::size_t i = 0; i < xs.size(); i++) {
+        if (!(xs[i] > 0 && ys[i] > 0)) continue;
+        const double x = std::log(xs[i]), y = std::log(ys[i]);
+        n++, sumX += x, sumY += y, sumXX += x * x, sumXY += x * y;
+    }
+    const double spread = n * sumXX - sumX * sumX;
+    return n < 2 || !(spread > 0) ? NAN : (n * sumXY - sumX * sumY) / spread;
+}
+
+} // namespace vkpm

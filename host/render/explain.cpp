@@ -1,0 +1,88 @@
+/// Features in words.
+#include "render/explain.h"
+#include "render/features.h"
+#include <fmt/format.h>
+
+namespace vkpm {
+namespace {
+
+/// Why a photon map is left out; empty if it is not.
+std::string mapAbsent(bool needed, bool caustic, const Features& features, const Settings& settings) {
+    if (needed) return "";
+    if (!features.hasDiffuse) return "the scene has no diffuse surface";
+    if (caustic && !features.hasMirror && !features.hasGlass) return "the scene has no specular surface";
+    if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
+    if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
+    const bool uses = settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic == caustic);
+    return uses ? "nobody asked for a layer that needs it" : "the integrator does not use it";
+}
+
+/// Why a layer that was asked for has no light.
+std::string layerAbsent(uint layer, const Features& features, const Settings& settings) {
+    const bool specular = features.hasMirror || features.hasGlass;
+    if (layer >= LAYER_COUNT) return "nobody asked for it";
+    if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR) return "the scene has no diffuse surface";
+    if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
+    const bool finds = settings.integrator == INTEGRATOR_LIGHT ? layer == LAYER_CAUSTIC : settings.integrator != INTEGRATOR_DIRECT;
+    if (finds && (layer == LAYER_CAUSTIC ? settings.causticPhotons : settings.photons) == 0)
+        return "no photons were asked for";
+    return "the integrator does not find it";
+}
+
+std::string fieldAbsent(const Features& features, const Settings& settings) {
+    if (features.hasRadiusField) return "";
+    if (!features.hasCausticMap) return "there is no caustic map";
+    return settings.nearest ? "the nearest photons decide the radius" : "one caustic radius was given";
+}
+
+} // namespace
+
+std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& settings) {
+    std::vector<FeatureReason> lines;
+    const auto has = [&](const char* name, uint needed, const char* what) {
+        lines.push_back({name, needed != 0, fmt::format("the scene has {}{}", needed ? "" : "no ", what)});
+    };
+    const auto because = [&](const char* name, const std::string& absent, const char* present) {
+        lines.push_back({name, absent.empty(), absent.empty() ? present : absent});
+    };
+    const auto layer = [&](const char* name, uint needed, uint index) {
+        const bool asked = (settings.layers >> index & 1) != 0;
+        because(name, needed ? "" : !asked ? "nobody asked for it" : layerAbsent(index, f, settings), "the picture shows it");
+    };
+    has("hasTriangles", f.hasTriangles, "triangles");
+    has("hasSpheres", f.hasSpheres, "spheres");
+    has("hasSmoothNormals", f.hasSmoothNormals, "smooth normals");
+    has("hasContact", f.hasContact, "glass next to something opaque");
+    has("hasSmoothDiffuse", f.hasSmoothDiffuse, "diffuse meshes with smooth normals");
+    has("hasMirror", f.hasMirror, "mirrors");
+    has("hasGlass", f.hasGlass, "glass");
+    has("hasTint", f.hasTint, "tinted glass");
+    has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
+    has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");
+    because("hasManyLights", f.hasManyLights ? "" : "the scene has one light", "the scene has several lights");
+    has("hasRectangleLights", f.hasRectangleLights, "rectangles that emit");
+    has("hasTriangleLights", f.hasTriangleLights, "meshes that emit");
+    has("hasSphereLights", f.hasSphereLights, "spheres that emit");
+    has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
+    because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light", "photons of a light far away are aimed at the scene");
+    because("hasGuide", f.hasGuide ? "" : f.hasGlobalMap || f.hasCausticMap ? "most photons are useful, or none, or it is not known yet" : "there is no photon map", "photons are sent where the eye looks");
+    because("hasGlobalMap", mapAbsent(f.hasGlobalMap, false, f, settings), "the integrator gathers from it");
+    because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
+    because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");
+    because("hasNearest", f.hasNearest ? "" : "it was not asked for", "it was asked for");
+    layer("hasEmissionLayer", f.hasEmissionLayer, LAYER_EMISSION);
+    layer("hasDirectLayer", f.hasDirectLayer, LAYER_DIRECT);
+    layer("hasSpecularLayer", f.hasSpecularLayer, LAYER_SPECULAR);
+    layer("hasCausticLayer", f.hasCausticLayer, LAYER_CAUSTIC);
+    layer("hasIndirectLayer", f.hasIndirectLayer, LAYER_INDIRECT);
+    layer("hasAlbedo", f.hasAlbedo, ASK_ALBEDO);
+    layer("hasNormal", f.hasNormal, ASK_NORMAL);
+    layer("hasDepth", f.hasDepth, ASK_DEPTH);
+    layer("hasNoise", f.hasNoise, ASK_NOISE);
+    because("hasBias", f.hasBias ? "" : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it" : "nothing is read from a photon map", "photon maps blur");
+    has("hasDiffuse", f.hasDiffuse, "diffuse surfaces");
+    because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
+    return lines;
+}
+
+} // namespace vkpm

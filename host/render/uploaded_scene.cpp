@@ -1,0 +1,57 @@
+/// Upload of a scene.
+#include "render/uploaded_scene.h"
+#include <stdexcept>
+
+namespace vkpm {
+
+static_assert(sizeof(Leaf) == sizeof(LeafNumbers));
+
+template <class T> static Buffer<T> uploaded(Gpu& gpu, const char* name, const std::vector<T>& data) {
+    return Buffer<T>(gpu, name, std::span<const T>(data));
+}
+
+static std::vector<Material> withFresnel(std::vector<Material> materials, bool schlick) {
+    for (Material& material : materials) material.schlick = schlick;
+    return materials;
+}
+
+UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings)
+    : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
+      primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
+      materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
+    device = {.nodes = nodes,
+              .leaves = leaves,
+              .primitives = primitives,
+              .normals = normals,
+              .materials = materials,
+              .lights = lights,
+              .lightCdf = lightCdf,
+              .directCdf = directCdf,
+              .targets = targets,
+              .missing = missing,
+              .lit = scene.lit,
+              .near = scene.near,
+              .triangleCount = scene.triangleCount,
+              .lightCount = static_cast<uint>(scene.lights.size()),
+              .targetCount = static_cast<uint>(scene.targets.size()),
+              .unit = static_cast<float>(scene.coordinates.unit)};
+    address = Buffer<DeviceScene>(gpu, "scene", 1);
+    look(scene.view, settings.size);
+}
+
+void UploadedScene::look(const View& view, uvec2 size) {
+    device.camera = pinholeCamera(view, size);
+    address.upload(std::span(&device, 1));
+}
+
+void UploadedScene::requireNothingMissing() const {
+    const std::vector<uint> bits = missing.download();
+    std::string names;
+#define X(id, name, value) names += bits[id / 32] >> id % 32 & 1 ? " " #name : "";
+    FEATURES(X)
+#undef X
+    if (!names.empty()) throw std::logic_error("features were left out that the scene needs:" + names);
+}
+
+} // namespace vkpm

@@ -1,0 +1,18 @@
+/// What a run of the tests takes of a set that is too large for each run.
+#pragma once
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace vkpm {
+
+/// Changes with each commit (tools/test), so that what is drawn by it has all of its set in time.
+inline std::uint32_t drawSeed() {
+    const char* seed = std::getenv("VKPM_DRAW_SEED");
+    return seed ? std::uint32_t(std::stoul(seed)) : 1;
+}
+
+/// Whether all of a set is wanted (tools/test --nightly).
+inline bool isNightly() { return std::getenv("VKPM_NIGHTLY") != nullptr; }
+
+} // namespace vkpm
