@@ -110,13 +110,13 @@ def page(rows: list[tuple[list[str], str]], device: str) -> str:
     """One HTML file."""
     body = [[html.escape(words[0]), image, *map(html.escape, words[1:])] for words, image in rows]
     style = STYLE + "th, td { white-space: normal; text-align: left; }"
-    return (f'<!doctype html><meta charset="utf-8"><title>vkpm: extremes</title><style>{style}</style><h1>Stiff and extreme</h1>'
+    return (f'<!doctype html><meta charset="utf-8"><title>vkpm: extremes</title><style>{style}</style><h1>Stress tests</h1>'
             f"<p>{html.escape(device)}. Time is that of rendering, in units of a tame sibling's.</p>"
             + table(["", "picture", *HEAD[1:]], body))
 
 
 def markdown(rows: list[list[str]]) -> str:
-    """The table for the README."""
+    """The table for tests/README.md, between its markers."""
     lines = [HEAD[:-1], ["---"] * 5, *(words[:-1] for words in rows)]
     return "".join("| " + " | ".join(words) + " |\n" for words in lines)
 

@@ -10,7 +10,7 @@ namespace vkpm {
 /// What the user may ask for besides moving the camera.
 enum class Action { none, pause, togglePanel, save, reset, copyCamera, togglePhotons, toggleFollow, nextCurve, brighter, darker, usualExposure, usualSettings, quit };
 
-/// A line of the table of keys, in the panel and in the README.
+/// A line of the table of keys, in the panel and in host/window/README.md.
 struct KeyHelp {
     const char* keys;
     const char* meaning;
