@@ -1,4 +1,8 @@
 // A pinhole camera.
+#ifndef CAMERA_GLSL
+#define CAMERA_GLSL
+#include "kernel.glsl"
+#include "shared_scene.h"
 
 // Direction through a film position in [0, 1]^2, y down.
 vec3 cameraDirection(Camera camera, vec2 film) {
@@ -19,3 +23,5 @@ float pixelSolidAngle(Camera camera, uvec2 size, float cosine) {
     float area = 4.0 * length(camera.right) * length(camera.up) / (float(size.x) * float(size.y));
     return area * cosine * cosine * cosine;
 }
+
+#endif

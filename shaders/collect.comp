@@ -3,6 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "columns.glsl"
+#include "shared_film.h"
+#include "shared_splat.h"
 
 ARGS(CollectArgs)
 

@@ -1,13 +1,18 @@
 // Columns of samples and of their sums: which there are, reading them, and adding to them.
+#ifndef COLUMNS_GLSL
+#define COLUMNS_GLSL
+#include "kernel.glsl"
+#include "shared_film.h"
+#include "shared_layers.h"
 
 // Whether a layer is rendered at all.
 bool hasLayer(uint layer) {
     switch (layer) {
-    case LAYER_EMISSION: return hasEmissionLayer != 0u;
-    case LAYER_DIRECT: return hasDirectLayer != 0u;
-    case LAYER_SPECULAR: return hasSpecularLayer != 0u;
-    case LAYER_CAUSTIC: return hasCausticLayer != 0u;
-    default: return hasIndirectLayer != 0u;
+    case LAYER_EMISSION: return hasEmissionLayer;
+    case LAYER_DIRECT: return hasDirectLayer;
+    case LAYER_SPECULAR: return hasSpecularLayer;
+    case LAYER_CAUSTIC: return hasCausticLayer;
+    default: return hasIndirectLayer;
     }
 }
 
@@ -38,3 +43,5 @@ void storeColumns(floatPtr columns, uint stride, uint column, uint place, vec3 v
 void addToColumns(floatPtr columns, uint stride, uint column, uint place, vec3 value) {
     storeColumns(columns, stride, column, place, loadColumns(columns, stride, column, place) + value);
 }
+
+#endif

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "shared_paths.h"
 
 ARGS(CompactArgs)
 

@@ -1,7 +1,12 @@
 // Thinning of crowded cells: where more than MOST_PER_CELL photons share a key, they are cut into that many runs of equal
 // length (to one), one photon of each run is chosen at random, and carries the flux of all. The expectation of every gather stays
-// as it is, and no gather reads more than MOST_PER_CELL photons of a cell. Stratified sampling (Cochran 1977, chapter 5); needs
-// random.glsl.
+// as it is, and no gather reads more than MOST_PER_CELL photons of a cell. Stratified sampling (Cochran 1977, chapter 5).
+#ifndef CROWD_GLSL
+#define CROWD_GLSL
+#include "kernel.glsl"
+#include "hash.h"
+#include "random.glsl"
+#include "shared_photons.h"
 
 // A run of consecutive photons of a cell.
 struct Run {
@@ -35,3 +40,5 @@ uint weightAfterThinning(uintPtr keys, uintPtr cells, uint i, uint pass) {
     umulExtended(hash(hash(key, run.first), pass), run.size, chosen, unused);
     return i - first == run.first + chosen ? run.size : 0u;
 }
+
+#endif

@@ -1,4 +1,11 @@
-// Density estimation: irradiance at a point from the photons around it; needs grid.glsl and frame.glsl.
+// Density estimation: irradiance at a point from the photons around it.
+#ifndef DENSITY_GLSL
+#define DENSITY_GLSL
+#include "kernel.glsl"
+#include "frame.glsl"
+#include "grid.glsl"
+#include "shared_camera.h"
+#include "shared_photons.h"
 
 // Weight of a photon at squared distance x2 (in units of the radius), over the mean weight of the disc.
 // Cone with k = 1.1 (Jensen 1996), Gauss with alpha = 0.918, beta = 1.953 (Pavicic 1990, as in Jensen 2001, here normalised),
@@ -41,7 +48,7 @@ void addPhoton(PhotonMap map, uint i, float distance2, float radius, inout Sums 
     vec3 color = PhotonPtr(map.photons).at[i].color;
     float x2 = distance2 / (radius * radius);
     sums.outer += color * densityWeight(kernel, x2);
-    if (hasBias != 0u) sums.inner += x2 < 0.5 ? color * densityWeight(kernel, 2.0 * x2) : vec3(0.0);
+    if (hasBias) sums.inner += x2 < 0.5 ? color * densityWeight(kernel, 2.0 * x2) : vec3(0.0);
 }
 
 // Sum of the photons' colours under the kernel, per area of the disc. If bias is estimated, `inner` is the same of the disc of
@@ -119,3 +126,5 @@ float nearestRadius(PhotonMap map, Query query, uint k) {
     const float inward = 0.999999; // the square of a rounded root may be greater, and the photon inside again
     return inward * sqrt(farthest > 0.0 ? farthest : high);
 }
+
+#endif

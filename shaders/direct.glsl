@@ -1,4 +1,14 @@
 // Direct light at a point of a diffuse surface; needs light.glsl, seen.glsl, offset.glsl, terminator.glsl and features.glsl.
+#ifndef DIRECT_GLSL
+#define DIRECT_GLSL
+#include "kernel.glsl"
+#include "features.glsl"
+#include "light.glsl"
+#include "offset.glsl"
+#include "seen.glsl"
+#include "shared_camera.h"
+#include "shared_scene.h"
+#include "terminator.glsl"
 
 // A shadow ray to a point of a light that was chosen with a probability, and what it brings if nothing is in its way: the radiance
 // that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts at `origin`, on the side of
@@ -19,3 +29,5 @@ ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, v
     requireLight(scene, light);
     return sampleDirectOf(light, lightProbability(scene.directCdf, chosen), origin, from, normal, shading, bulge, weight, column, place);
 }
+
+#endif

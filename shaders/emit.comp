@@ -3,17 +3,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
-#include "sampling.glsl"
-#include "frame.glsl"
-#include "offset.glsl"
-#include "light.glsl"
 #include "features.glsl"
-#include "targets.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "traverse.glsl"
 #include "guide.glsl"
+#include "light.glsl"
+#include "offset.glsl"
+#include "random.glsl"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
+#include "targets.glsl"
+#include "traverse.glsl"
 
 ARGS(EmitArgs)
 
@@ -25,7 +24,7 @@ void main() {
 
     float numbers[START_NUMBERS] = startNumbers(s);
     float sparse = 1.0;
-    if (hasGuide != 0u && args.guide != uvec2(0u)) sparse = guide(GuideNodePtr(args.guide), numbers);
+    if (hasGuide && args.guide != uvec2(0u)) sparse = guide(GuideNodePtr(args.guide), numbers);
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
     Light light = LightPtr(scene.lights).at[chooseLight(scene, scene.lightCdf, numbers[START_LIGHT])];
@@ -45,7 +44,7 @@ void main() {
         origin = entered;
     }
     float weight = aim.weight;
-    if (hasGuide != 0u && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
+    if (hasGuide && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
     weight *= sparse;
 
     vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);

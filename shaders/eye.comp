@@ -2,8 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
 #include "camera.glsl"
+#include "random.glsl"
+#include "shared_camera.h"
+#include "shared_film.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 
 ARGS(EyeArgs)
 

@@ -1,11 +1,15 @@
 // Checks that nothing was left out that the scene needs. They cost time, so that debug builds alone make them.
+#ifndef FEATURES_GLSL
+#define FEATURES_GLSL
+#include "kernel.glsl"
+#include "shared_scene.h"
 
-void require(DeviceScene scene, bool needed, uint has, uint id) {
-    if (needed && has == 0u) atomicOr(uintPtr(scene.missing).at[id / 32u], 1u << (id % 32u));
+void require(DeviceScene scene, bool needed, bool has, uint id) {
+    if (needed && !has) atomicOr(uintPtr(scene.missing).at[id / 32u], 1u << (id % 32u));
 }
 
 void requireLight(DeviceScene scene, Light light) {
-    if (checksFeatures == 0u) return;
+    if (!checksFeatures) return;
     require(scene, scene.lightCount > 1u, hasManyLights, id_hasManyLights);
     require(scene, light.kind == LIGHT_RECTANGLE, hasRectangleLights, id_hasRectangleLights);
     require(scene, light.kind == LIGHT_TRIANGLE, hasTriangleLights, id_hasTriangleLights);
@@ -14,7 +18,7 @@ void requireLight(DeviceScene scene, Light light) {
 }
 
 void requireSurface(DeviceScene scene, uint primitive, Material material) {
-    if (checksFeatures == 0u) return;
+    if (!checksFeatures) return;
     bool triangle = primitive < scene.triangleCount;
     bool glass = material.kind == MATERIAL_GLASS;
     require(scene, triangle, hasTriangles, id_hasTriangles);
@@ -28,3 +32,5 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
     require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);
 }
+
+#endif

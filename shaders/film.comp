@@ -4,6 +4,8 @@
 #include "kernel.glsl"
 #include "columns.glsl"
 #include "pixel_sum.glsl"
+#include "shared_film.h"
+#include "shared_layers.h"
 
 ARGS(FilmArgs)
 
@@ -20,8 +22,8 @@ void main() {
     if (slot >= args.count) return;
     uint pixel = args.firstPixel + slot;
     blacken(slot);
-    if (hasNoise != 0u) joinBeauty(args.sums, args.pixels, pixel, args.samples, args.stride, slot, vec3(0.0), vec3(0.0), args.weights);
-    if (hasBias != 0u) {
+    if (hasNoise) joinBeauty(args.sums, args.pixels, pixel, args.samples, args.stride, slot, vec3(0.0), vec3(0.0), args.weights);
+    if (hasBias) {
         precise float bias = luminance(loadColumns(args.samples, args.stride, COLUMN_BIAS, slot));
         precise float square = bias * bias;
         args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += square;

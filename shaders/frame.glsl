@@ -1,4 +1,7 @@
 // Local frames, and unit vectors in 32 bits.
+#ifndef FRAME_GLSL
+#define FRAME_GLSL
+#include "kernel.glsl"
 
 // A vector given about +z, turned to be about the unit vector n (Duff et al. 2017).
 vec3 toWorld(vec3 v, vec3 n) {
@@ -29,3 +32,5 @@ vec3 unpackDirection(uint code) {
 vec3 unpackUnit(uint code) {
     return normalize(unpackDirection(code));
 }
+
+#endif

@@ -4,12 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
-#include "frame.glsl"
-#include "grid.glsl"
-#include "radius_field.glsl"
-#include "density.glsl"
 #include "columns.glsl"
+#include "density.glsl"
+#include "radius_field.glsl"
+#include "shared_camera.h"
+#include "shared_film.h"
+#include "shared_paths.h"
 
 ARGS(GatherArgs)
 
@@ -19,7 +19,7 @@ void main() {
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
     if (query.column == NONE) return;
-    float radius = hasNearest != 0u && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
+    float radius = hasNearest && args.map.nearest > 0u ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
                                                             : radiusAt(args.map, query.position);
     if (args.map.partial != 0u) {
         // What is narrower than a pixel is not seen, and most paths from the eye would miss it.
@@ -29,7 +29,7 @@ void main() {
     }
     vec3 inner;
     vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
-    if (hasBias != 0u)
+    if (hasBias)
         addToColumns(args.samples, args.stride, COLUMN_BIAS, slot, 2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
     addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
 }

@@ -4,6 +4,12 @@
 //
 // A disc is looked up at the level whose cells are just wide enough for the eight around its centre to cover it; these
 // differ in their last octant, so that none is read twice.
+#ifndef GRID_GLSL
+#define GRID_GLSL
+#include "kernel.glsl"
+#include "hash.h"
+#include "random.glsl"
+#include "shared_photons.h"
 
 const float FARTHEST_CELL = 5.0e7; // beyond, all cells are one
 
@@ -69,3 +75,5 @@ uvec2 cellRange(PhotonMap map, Cells cells, uint corner) {
     uint last = (key << 3 | octant(high)) << below & map.cellMask;
     return uvec2(uintPtr(map.cells).at[least], uintPtr(map.cells).at[last + (1u << below)]);
 }
+
+#endif

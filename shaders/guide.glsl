@@ -1,5 +1,10 @@
 // Guided emission: numbers that start photons, by a tree that says how many to draw from each part of their unit cube (primary sample
-// space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018); needs random.glsl.
+// space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018).
+#ifndef GUIDE_GLSL
+#define GUIDE_GLSL
+#include "kernel.glsl"
+#include "random.glsl"
+#include "shared_photons.h"
 
 const float BELOW_ONE = 0.99999994;
 
@@ -32,3 +37,5 @@ float guide(GuideNodePtr nodes, inout float numbers[START_NUMBERS]) {
     [[unroll]] for (uint i = 0u; i < START_NUMBERS; i++) numbers[i] = min(low[i] + width[i] * numbers[i], BELOW_ONE);
     return sparse;
 }
+
+#endif

@@ -1,8 +1,10 @@
 // Hashes that kernels and the host share.
 
-#ifdef __cplusplus
-#pragma once
+#ifndef HASH_H
+#define HASH_H
 #include "shared.h"
+
+#ifdef __cplusplus
 #define INLINE inline
 namespace vkpm {
 using glm::uvec3;
@@ -28,3 +30,4 @@ INLINE uint hash(uvec3 v) {
 } // namespace vkpm
 #endif
 #undef INLINE
+#endif

@@ -1,5 +1,8 @@
-// Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far; needs
-// sphere.glsl.
+// Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far.
+#ifndef INTERSECT_GLSL
+#define INTERSECT_GLSL
+#include "kernel.glsl"
+#include "sphere.glsl"
 
 // A ray with what its tests need; `direction` need not be of unit length.
 struct Ray {
@@ -86,3 +89,5 @@ float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
     float far = max(c / q, q / a);
     return q == 0.0 ? -1.0 : near > 0.0 ? near : far > 0.0 ? far : -1.0;
 }
+
+#endif

@@ -4,16 +4,17 @@
 #include "kernel.glsl"
 #include "columns.glsl"
 #include "pixel_sum.glsl"
+#include "shared_film.h"
 
 ARGS(JoinArgs)
 
 void main() {
     uint pixel = threadIndex();
     if (pixel >= args.pixels) return;
-    if (hasNoise != 0u)
+    if (hasNoise)
         joinBeauty(args.sums, args.pixels, pixel, args.other, args.pixels, pixel, loadColumns(args.other, args.pixels, COLUMN_REST, pixel),
             loadColumns(args.other, args.pixels, COLUMN_COARSE, pixel), args.weights);
-    if (hasBias != 0u) args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += args.other.at[COLUMN_SQUARE * args.pixels + pixel];
+    if (hasBias) args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += args.other.at[COLUMN_SQUARE * args.pixels + pixel];
     for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
         args.sums.at[column * args.pixels + pixel] += args.other.at[column * args.pixels + pixel];
 }

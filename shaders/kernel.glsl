@@ -1,4 +1,6 @@
 // What every kernel starts with: the shared structs, its arguments, and the index of its invocation.
+#ifndef KERNEL_GLSL
+#define KERNEL_GLSL
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
@@ -43,3 +45,5 @@ bool isFinite(float x) {
 bool isFinite(vec3 v) {
     return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
 }
+
+#endif

@@ -1,4 +1,9 @@
 // Area lights: which one, where on it, how much it sends.
+#ifndef LIGHT_GLSL
+#define LIGHT_GLSL
+#include "kernel.glsl"
+#include "sampling.glsl"
+#include "shared_scene.h"
 
 struct LightPoint {
     vec3 position;
@@ -8,7 +13,7 @@ struct LightPoint {
 
 // The light whose part of the unit interval holds u.
 uint chooseLight(DeviceScene scene, uvec2 cdf, float u) {
-    if (hasManyLights == 0u) return 0u;
+    if (!hasManyLights) return 0u;
     uint low = 0u;
     uint high = scene.lightCount - 1u;
     while (low < high) {
@@ -21,20 +26,20 @@ uint chooseLight(DeviceScene scene, uvec2 cdf, float u) {
 
 // The probability of being chosen.
 float lightProbability(uvec2 cdf, uint light) {
-    if (hasManyLights == 0u) return 1.0;
+    if (!hasManyLights) return 1.0;
     return floatPtr(cdf).at[light] - (light > 0u ? floatPtr(cdf).at[light - 1u] : 0.0);
 }
 
 bool isSphere(Light light) {
-    return hasSphereLights != 0u && ((hasRectangleLights == 0u && hasTriangleLights == 0u) || light.kind == LIGHT_SPHERE);
+    return hasSphereLights && ((!hasRectangleLights && !hasTriangleLights) || light.kind == LIGHT_SPHERE);
 }
 
 bool isTriangle(Light light) {
-    return hasTriangleLights != 0u && ((hasRectangleLights == 0u && hasSphereLights == 0u) || light.kind == LIGHT_TRIANGLE);
+    return hasTriangleLights && ((!hasRectangleLights && !hasSphereLights) || light.kind == LIGHT_TRIANGLE);
 }
 
 bool isTwoSided(Light light) {
-    return hasTwoSidedLights != 0u && light.twoSided != 0u;
+    return hasTwoSidedLights && light.twoSided != 0u;
 }
 
 // The point a + place.x u + place.y v of a rectangle or triangle.
@@ -57,3 +62,5 @@ LightPoint sampleLight(Light light, vec2 u) {
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
     return isTwoSided(light) || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
 }
+
+#endif

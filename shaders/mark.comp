@@ -2,9 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
-#include "radius_field.glsl"
 #include "marks.glsl"
+#include "radius_field.glsl"
+#include "shared_camera.h"
+#include "shared_guide.h"
+#include "shared_paths.h"
 
 ARGS(MarkArgs)
 

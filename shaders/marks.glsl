@@ -1,5 +1,10 @@
-// A set of cells of several widths, where the eye looks: bits by hash, so that few cells that were not marked seem to be; needs
-// random.glsl. Cells of level l are 2^l times as wide as the finest.
+// A set of cells of several widths, where the eye looks: bits by hash, so that few cells that were not marked seem to be. Cells of level l are 2^l times as wide as the finest.
+#ifndef MARKS_GLSL
+#define MARKS_GLSL
+#include "kernel.glsl"
+#include "hash.h"
+#include "random.glsl"
+#include "shared_guide.h"
 
 uint markHash(ivec3 cell, uint level) {
     return hash(uvec3(cell) ^ uvec3(0u, 0u, hash(level)));
@@ -28,3 +33,5 @@ bool isMarked(uintPtr marks, vec3 position, float finest) {
     }
     return false;
 }
+
+#endif

@@ -1,4 +1,10 @@
 // Mirrors and glass: Fresnel reflectance, and the one direction in which light goes on.
+#ifndef MATERIAL_GLSL
+#define MATERIAL_GLSL
+#include "kernel.glsl"
+#include "shared_paths.h"
+#include "shared_scene.h"
+#include "surface.glsl"
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; eta = index beyond / index on the side of incidence,
 // cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). Where the indices hardly differ, the differences of
@@ -50,15 +56,15 @@ Scattering reflectAbout(vec3 d, vec3 n, vec3 weight) {
 Scattering scatterGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
     float eta = leaving ? 1.0 / m.ior : m.ior;
     float cosI = min(1.0, -dot(d, n));
-    bool schlick = hasSchlickFresnel != 0u && (hasExactFresnel == 0u || m.schlick != 0u);
+    bool schlick = hasSchlickFresnel && (!hasExactFresnel || m.schlick != 0u);
     if (u < fresnel(schlick, eta, cosI)) return reflectAbout(d, n, vec3(1.0));
     float cosT = sqrt(max(0.0, refractedCosine2(eta, cosI)));
     vec3 direction = normalize((d + cosI * n) / eta - cosT * n);
-    return Scattering(direction, hasTint != 0u ? m.color : vec3(1.0), n, 1.0 / (eta * eta));
+    return Scattering(direction, hasTint ? m.color : vec3(1.0), n, 1.0 / (eta * eta));
 }
 
 Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {
-    if (hasGlass != 0u && (hasMirror == 0u || m.kind == MATERIAL_GLASS)) return scatterGlass(m, d, n, leaving, u);
+    if (hasGlass && (!hasMirror || m.kind == MATERIAL_GLASS)) return scatterGlass(m, d, n, leaving, u);
     return reflectAbout(d, n, m.color);
 }
 
@@ -67,7 +73,7 @@ Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {
 Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
     bool leaving = dot(d, s.normal) > 0.0;
     vec3 geometric = leaving ? -s.normal : s.normal;
-    if (hasSmoothNormals == 0u) return scatterAbout(m, d, geometric, leaving, u);
+    if (!hasSmoothNormals) return scatterAbout(m, d, geometric, leaving, u);
     vec3 shading = leaving ? -s.shading : s.shading;
     if (dot(d, shading) < 0.0) {
         Scattering result = scatterAbout(m, d, shading, leaving, u);
@@ -80,7 +86,7 @@ Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
 // What a photon's flux is multiplied by since shading normals are not the geometric ones (Veach 1997, eq. 5.19);
 // wi against its direction of arrival, wo along that of departure, for a specular event about n.
 float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
-    if (hasSmoothNormals == 0u || n == geometric || n == -geometric) return 1.0;
+    if (!hasSmoothNormals || n == geometric || n == -geometric) return 1.0;
     return abs(dot(wi, n) * dot(wo, geometric)) / max(abs(dot(wi, geometric) * dot(wo, n)), 1e-6);
 }
 
@@ -101,5 +107,7 @@ float specularSurvival(vec3 weight, uint run) {
 }
 
 bool isDiffuse(Material m) {
-    return hasDiffuse != 0u && ((hasMirror == 0u && hasGlass == 0u) || m.kind == MATERIAL_DIFFUSE);
+    return hasDiffuse && ((!hasMirror && !hasGlass) || m.kind == MATERIAL_DIFFUSE);
 }
+
+#endif

@@ -3,9 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
 #include "grid.glsl"
 #include "radius_field.glsl"
+#include "shared_photons.h"
 
 ARGS(PilotArgs)
 

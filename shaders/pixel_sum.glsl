@@ -1,4 +1,4 @@
-// Sums over passes; needs columns.glsl. The same bits come out wherever and in whatever parts they are computed: only sums and
+// Sums over passes. The same bits come out wherever and in whatever parts they are computed: only sums and
 // products of numbers that the host gives, kept from being contracted.
 //
 // Runs of passes are nodes of a tree (host/render/pass_runs.h): four batches of 4^k passes make one of 4^(k + 1). How
@@ -8,6 +8,12 @@
 //
 // Deviations are small differences of large sums. So a run also keeps what roundings took from the sums of its layers (REST), and
 // differences are made before sums.
+#ifndef PIXEL_SUM_GLSL
+#define PIXEL_SUM_GLSL
+#include "kernel.glsl"
+#include "columns.glsl"
+#include "shared_film.h"
+#include "shared_layers.h"
 
 // Takes a batch whose mean beauty is `apart` from a run's, and which has coarse deviations of its own, into the deviations of
 // the run: its coarse ones are fine to the run (Chan, Golub & LeVeque 1979, eq. 2.1b).
@@ -55,3 +61,5 @@ void joinBeauty(floatPtr sums, uint pixels, uint pixel, floatPtr other, uint str
     joinDeviations(sums, pixels, pixel, meanApart, batch, w);
     storeColumns(sums, pixels, COLUMN_REST, pixel, newRest);
 }
+
+#endif

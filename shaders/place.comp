@@ -2,6 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "shared_paths.h"
+#include "shared_photons.h"
 
 ARGS(PlaceArgs)
 

@@ -2,11 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
-#include "frame.glsl"
-#include "grid.glsl"
-#include "density.glsl"
 #include "columns.glsl"
+#include "density.glsl"
+#include "grid.glsl"
+#include "shared_camera.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
 
 ARGS(GatherArgs)
 

@@ -1,5 +1,11 @@
 // The first gather radius as a function of the place: cells of a hashed grid hold its binary logarithm, in units of the
-// map's radius; needs random.glsl.
+// map's radius.
+#ifndef RADIUS_FIELD_GLSL
+#define RADIUS_FIELD_GLSL
+#include "kernel.glsl"
+#include "hash.h"
+#include "random.glsl"
+#include "shared_photons.h"
 
 uint fieldSlot(PhotonMap map, ivec3 cell) {
     return hash(uvec3(cell)) & ((map.partial != 0u ? NARROW_FIELD_CELLS : FIELD_CELLS) - 1u);
@@ -8,7 +14,7 @@ uint fieldSlot(PhotonMap map, ivec3 cell) {
 // Interpolated between the middles of the eight cells around a point, of those that have a value. Elsewhere the map's radius; in a
 // map of narrow discs alone 0, unless half of the point's surroundings have values.
 float radiusAt(PhotonMap map, vec3 position) {
-    if (hasRadiusField == 0u || map.fieldPerUnit == 0.0) return map.radius;
+    if (!hasRadiusField || map.fieldPerUnit == 0.0) return map.radius;
     vec3 place = clamp(position * map.fieldPerUnit, -1.0e9, 1.0e9) - 0.5;
     ivec3 first = ivec3(floor(place));
     vec3 part = place - floor(place);
@@ -26,3 +32,5 @@ float radiusAt(PhotonMap map, vec3 position) {
     if (map.partial != 0u && weights < 0.5) return 0.0;
     return weights > 0.0 ? map.radius * exp2(sum / weights) : map.radius;
 }
+
+#endif

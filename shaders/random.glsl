@@ -1,11 +1,14 @@
 // Owen-scrambled Sobol points (Burley 2020), a pure function of sequence, index and dimension.
+#ifndef RANDOM_GLSL
+#define RANDOM_GLSL
+#include "kernel.glsl"
+#include "hash.h"
 
 struct Sampler {
     uint index; // of the point in its sequence
     uint seed;  // of the sequence
 };
 
-#include "hash.h"
 
 uint hash(uint a, uint b) {
     return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));
@@ -61,3 +64,5 @@ Sampler pixelSampler(uint pixel, uint index, uint seed, uint sequence) {
 Sampler photonSampler(uint photon, uint pass, uint seed, uint map) {
     return Sampler(photon, hash(hash(seed, 0x70686f74u + map), pass));
 }
+
+#endif

@@ -1,4 +1,7 @@
 // Points on simple domains from points of the unit square.
+#ifndef SAMPLING_GLSL
+#define SAMPLING_GLSL
+#include "kernel.glsl"
 
 // The point of the unit circle at x eighths of a turn, |x| <= 1 (polynomials of Cephes, Moshier 1992). Drivers' sin and cos may
 // be wrong by 2^-11, which puts directions off by more than a gather radius and points of the disc outside it.
@@ -75,3 +78,5 @@ vec2 uniformTriangle(vec2 u) {
     float s = sqrt(u.x);
     return vec2(s * (1.0 - u.y), s * u.y);
 }
+
+#endif

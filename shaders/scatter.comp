@@ -4,15 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "kernel.glsl"
+#include "features.glsl"
+#include "frame.glsl"
+#include "material.glsl"
+#include "offset.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
-#include "frame.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 #include "surface.glsl"
-#include "material.glsl"
 #include "terminator.glsl"
-#include "features.glsl"
 
 ARGS(ScatterArgs)
 
@@ -39,7 +41,7 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
 // The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for a shading normal
 // that is not the geometric one (Veach 1997, eq. 5.19).
 Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
-    if (hasSmoothNormals != 0u) {
+    if (hasSmoothNormals) {
         vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
         if (bulge == 0.0) path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
         else path.throughput *= cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
@@ -60,7 +62,7 @@ const float MOST_SURVIVAL = 0.8; // some always go through
 
 // At a diffuse surface; a photon may arrive there, as `photon`, and the path goes on with the fate returned.
 uint arriveAtDiffuse(inout Path path, Material material, Surface surface, Sampler s, out Photon photon) {
-    bool through = hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u;
+    bool through = hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u;
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind != through ? -surface.normal : surface.normal;
     float bulge = behind != through ? -surface.bulge : surface.bulge;
@@ -73,7 +75,7 @@ uint arriveAtDiffuse(inout Path path, Material material, Surface surface, Sample
     if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
     else if (through) return FATE_ABSORBED;
     float survival = maxComponent(material.color);
-    bool passes = hasSmoothDiffuse != 0u && bulge != 0.0 && !through;
+    bool passes = hasSmoothDiffuse && bulge != 0.0 && !through;
     if (passes) survival = min(survival, MOST_SURVIVAL);
     if (args.caustic != 0u) survival = 0.0;
     uint fate = args.caustic != 0u ? FATE_ABSORBED : scatterAtDiffuse(path, material, surface, normal, survival, s);
@@ -88,7 +90,7 @@ uint step(uint slot, out bool arrives, out Arrival arrival) {
     Path path = args.paths.at[slot];
     Hit hit = args.hits.at[slot];
     arrives = false;
-    bool through = hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u;
+    bool through = hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u;
     if (hit.primitive == NONE) return through ? FATE_ABSORBED : FATE_ESCAPED;
 
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);

@@ -1,5 +1,12 @@
 // Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays; needs sampling.glsl,
 // frame.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts: 1 / distance^2 has no bound.
+#ifndef SEEN_GLSL
+#define SEEN_GLSL
+#include "kernel.glsl"
+#include "frame.glsl"
+#include "light.glsl"
+#include "sampling.glsl"
+#include "shared_scene.h"
 
 // A point of a light, and the solid angle that it stands for where it is seen from: one over the density over solid angle.
 struct SeenPoint {
@@ -142,3 +149,5 @@ SeenPoint seenPoint(Light light, vec3 origin, vec2 u) {
     }
     return seenUniformlyByArea(light, origin, u);
 }
+
+#endif

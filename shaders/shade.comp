@@ -5,19 +5,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "columns.glsl"
+#include "direct.glsl"
+#include "features.glsl"
+#include "frame.glsl"
+#include "light.glsl"
+#include "material.glsl"
+#include "offset.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
-#include "frame.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
+#include "shared_camera.h"
+#include "shared_film.h"
+#include "shared_layers.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 #include "surface.glsl"
-#include "material.glsl"
-#include "light.glsl"
-#include "seen.glsl"
-#include "columns.glsl"
-#include "features.glsl"
 #include "terminator.glsl"
-#include "direct.glsl"
 
 ARGS(ShadeArgs)
 
@@ -26,7 +29,7 @@ uint chosen() {
 }
 
 bool showsCaustics() {
-    return hasCausticMap != 0u && args.caustics != 0u;
+    return hasCausticMap && args.caustics != 0u;
 }
 
 // A pixel's seed for the dimensions of this bounce: four pairs each, after that of the place in the pixel.
@@ -63,7 +66,7 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
 // Returns the bit of the map's queue, or none if there is no such map or nobody asked for the layer.
 uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
     layer = layerOf(path, layer);
-    if ((queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) == 0u || !hasLayer(layer)) return 0u;
+    if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return 0u;
     float footprint = path.travelled * args.pixelAngle;
     args.queries.at[slot] = Query(surface.position, normal, weight, layerColumn(layer), footprint);
     return 1u << queue;
@@ -71,7 +74,7 @@ uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3
 
 // Lets light samples and gather rays start here, if anyone asks for what they find.
 void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
-    if ((hasDirectLayer | hasSpecularLayer | hasIndirectLayer) == 0u || maxComponent(weight) <= 0.0) return;
+    if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
     args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags,
         bulge);
@@ -80,8 +83,8 @@ void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, flo
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
 bool goesOn(Path path) {
     if (chosen() == INTEGRATOR_DIRECT) return false;
-    if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer != 0u;
-    return hasIndirectLayer != 0u || (chosen() == INTEGRATOR_PATH && hasCausticLayer != 0u && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
+    if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer;
+    return hasIndirectLayer || (chosen() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
@@ -138,7 +141,7 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
 
 // Whether light that is found beyond a specular vertex has a layer to go to.
 bool seesThrough(Path path) {
-    return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer != 0u;
+    return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer;
 }
 
 uint shade(uint slot) {
@@ -149,17 +152,17 @@ uint shade(uint slot) {
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
-    if (checksFeatures != 0u) require(scene, chosen() != args.integrator, 0u, id_integrator);
+    if (checksFeatures) require(scene, chosen() != args.integrator, false, id_integrator);
     float travelled = path.travelled + hit.t;
     if (args.bounce == 0u) {
-        if (hasAlbedo != 0u) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
-        if (hasNormal != 0u) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
-        if (hasDepth != 0u) {
+        if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
+        if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
+        if (hasDepth) {
             args.samples.at[COLUMN_DEPTH * args.stride + slot] = scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
             args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
         }
     }
-    if (hasSmoothDiffuse != 0u && (path.flags & PATH_THROUGH) != 0u) {
+    if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
         if (surface.bulge == 0.0 || !isDiffuse(material)) return 0u;
         args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput, travelled, surface.primitive, path.flags & ~PATH_THROUGH);
         return 1u << QUEUE_CONTINUE;

@@ -2,11 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "offset.glsl"
-#include "traverse.glsl"
 #include "columns.glsl"
+#include "shared_camera.h"
+#include "shared_paths.h"
+#include "traverse.glsl"
 
 ARGS(ShadowArgs)
 

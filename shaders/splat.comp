@@ -4,15 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "kernel.glsl"
-#include "frame.glsl"
 #include "camera.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "offset.glsl"
-#include "traverse.glsl"
-#include "surface.glsl"
-#include "material.glsl"
 #include "features.glsl"
+#include "frame.glsl"
+#include "material.glsl"
+#include "offset.glsl"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
+#include "shared_splat.h"
+#include "surface.glsl"
+#include "traverse.glsl"
 
 ARGS(SplatArgs)
 

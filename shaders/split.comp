@@ -3,16 +3,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "columns.glsl"
+#include "direct.glsl"
+#include "frame.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
-#include "frame.glsl"
-#include "offset.glsl"
-#include "light.glsl"
-#include "seen.glsl"
-#include "columns.glsl"
-#include "features.glsl"
+#include "shared_camera.h"
+#include "shared_layers.h"
+#include "shared_paths.h"
 #include "terminator.glsl"
-#include "direct.glsl"
 
 ARGS(SplitArgs)
 
@@ -26,7 +25,7 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
 }
 
 bool sendGatherRay(uint slot, Split from, Sampler s) {
-    if (hasGlobalMap == 0u || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT)) return false;
+    if (!hasGlobalMap || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT)) return false;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;

@@ -1,4 +1,11 @@
 // The surface at a hit: where it is, how it is turned, what it is made of.
+#ifndef SURFACE_GLSL
+#define SURFACE_GLSL
+#include "kernel.glsl"
+#include "offset.glsl"
+#include "shared_paths.h"
+#include "shared_scene.h"
+#include "sphere.glsl"
 
 struct Surface {
     vec3 position;
@@ -20,12 +27,12 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
     vec3 shading = normal;
     float bulge = 0.0;
-    if (hasSmoothNormals != 0u && p.normals != NONE) {
+    if (hasSmoothNormals && p.normals != NONE) {
         Normals n = NormalsPtr(scene.normals).at[p.normals];
         shading = normalize(first * n.a + weights.x * n.b + weights.y * n.c);
         bool turned = dot(shading, normal) < 0.0;
         if (turned) shading = -shading;
-        if (hasSmoothDiffuse != 0u) {
+        if (hasSmoothDiffuse) {
             bulge = dot(n.b - n.a, p.b - p.a) + dot(n.c - n.b, p.c - p.b) + dot(n.a - n.c, p.a - p.c);
             bulge = bulge < 0.0 == turned ? 1.0 : -1.0;
         }
@@ -44,7 +51,7 @@ Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {
     Primitive p = PrimitivePtr(scene.primitives).at[hit.primitive];
-    if (hasSpheres != 0u && (hasTriangles == 0u || hit.primitive >= scene.triangleCount))
+    if (hasSpheres && (!hasTriangles || hit.primitive >= scene.triangleCount))
         return sphereSurface(p, path.origin + hit.t * path.direction, hit);
     return triangleSurface(scene, p, hit);
 }
@@ -53,3 +60,5 @@ Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {
 vec3 leave(Surface s, vec3 direction) {
     return offsetPoint(s.position, s.magnitude, dot(direction, s.normal) < 0.0 ? -s.normal : s.normal);
 }
+
+#endif

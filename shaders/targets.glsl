@@ -1,4 +1,12 @@
 // Aiming photons at the bounding spheres of specular shapes (the projection map of Jensen & Christensen 1995).
+#ifndef TARGETS_GLSL
+#define TARGETS_GLSL
+#include "kernel.glsl"
+#include "features.glsl"
+#include "frame.glsl"
+#include "light.glsl"
+#include "sampling.glsl"
+#include "shared_scene.h"
 
 // Solid angle that a target gets: that of its cone, or the hemisphere for a point inside it.
 float targetSolidAngle(Target target, vec3 point) {
@@ -70,7 +78,7 @@ Aim aimAtLit(DeviceScene scene, LightPoint point, vec2 u) {
     vec3 d = scene.lit.center - point.position;
     float distance2 = dot(d, d);
     bool far = distance2 > 4.0 * scene.lit.radius * scene.lit.radius;
-    if (checksFeatures != 0u) require(scene, far, hasFarLights, id_hasFarLights);
+    if (checksFeatures) require(scene, far, hasFarLights != 0u, id_hasFarLights);
     if (hasFarLights == 0u || !far) return Aim(point.position, toWorld(cosineHemisphere(u), point.normal), 1.0, false);
     Aim aim = aimInCone(scene, scene.lit, point.position, d, distance2, u);
     aim.weight = 2.0 * coneHeight(scene.lit.radius, distance2) * max(0.0, dot(aim.direction, point.normal));
@@ -94,3 +102,5 @@ Aim aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice) {
     aim.weight = cosine > 0.0 ? cosine / PI * total / density : 0.0;
     return aim;
 }
+
+#endif

@@ -2,9 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "offset.glsl"
+#include "shared_paths.h"
 #include "traverse.glsl"
 
 ARGS(TraceArgs)
@@ -16,6 +14,6 @@ void main() {
     vec3 origin = args.paths.at[slot].origin;
     vec3 direction = args.paths.at[slot].direction;
     uint from = args.paths.at[slot].from;
-    if (hasSmoothDiffuse != 0u && (args.paths.at[slot].flags & PATH_THROUGH) != 0u) origin = beneath(args.scene.at[0], origin, direction, from);
+    if (hasSmoothDiffuse && (args.paths.at[slot].flags & PATH_THROUGH) != 0u) origin = beneath(args.scene.at[0], origin, direction, from);
     args.hits.at[slot] = closest(args.scene.at[0], origin, direction, from);
 }

@@ -1,4 +1,12 @@
-// The closest hit, or any hit, of a ray with the scene; needs intersect.glsl and offset.glsl.
+// The closest hit, or any hit, of a ray with the scene.
+#ifndef TRAVERSE_GLSL
+#define TRAVERSE_GLSL
+#include "kernel.glsl"
+#include "intersect.glsl"
+#include "offset.glsl"
+#include "shared_camera.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 
 // Where glass touches something opaque both faces are at the same place but for rounding, and a ray that went through the glass
 // first would start behind the other. So an opaque triangle hides the glass triangles before it that are within the roundings by which
@@ -39,7 +47,7 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
     uint id = LeafPtr(scene.leaves).at[slot].id;
     vec2 weights = vec2(0.0);
     float t;
-    if (hasSpheres != 0u && (hasTriangles == 0u || id >= scene.triangleCount)) {
+    if (hasSpheres && (!hasTriangles || id >= scene.triangleCount)) {
         t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x,
             LeafPtr(scene.leaves).at[slot].c);
     } else {
@@ -52,11 +60,11 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
     if (!(t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive)))) return;
-    if (any && hasSmoothDiffuse != 0u && passage.allowed && isSmoothDiffuse(scene, id)) {
+    if (any && hasSmoothDiffuse && passage.allowed && isSmoothDiffuse(scene, id)) {
         passage.triangles++;
         return;
     }
-    if (any || hasContact == 0u || id >= scene.triangleCount || !isGlass(scene, id)) {
+    if (any || !hasContact || id >= scene.triangleCount || !isGlass(scene, id)) {
         hit = Hit(t, id, weights);
     } else if (t < contact.glass.t || (t == contact.glass.t && id < contact.glass.primitive)) {
         float slack = slackOf(scene, ray, id);
@@ -66,7 +74,7 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
 
 // How far a ray has to be looked along.
 float reach(Hit hit, Contact contact) {
-    return hasContact != 0u ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
+    return hasContact ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
 }
 
 // Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
@@ -125,7 +133,7 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
             held--;
         }
     }
-    if (!any && hasContact != 0u && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
+    if (!any && hasContact && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
     return hit;
 }
 
@@ -152,8 +160,10 @@ vec3 beneath(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
 
 // Whether a light sample is hidden.
 bool hidden(DeviceScene scene, ShadowRay ray) {
-    Passage passage = Passage(hasSmoothDiffuse != 0u && ray.through != 0u, 0u);
+    Passage passage = Passage(hasSmoothDiffuse && ray.through != 0u, 0u);
     if (passage.allowed) ray.origin = beneath(scene, ray.origin, ray.target - ray.origin, ray.from);
     bool hit = traverse(scene, makeRay(ray.origin, ray.target - ray.origin), ray.from, 1.0, true, passage).primitive != NONE;
     return hit || (passage.allowed && passage.triangles != 1u);
 }
+
+#endif

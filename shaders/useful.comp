@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
 #include "marks.glsl"
+#include "shared_guide.h"
 
 ARGS(UsefulArgs)
 

@@ -2,17 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "random.glsl"
-#include "sampling.glsl"
-#include "frame.glsl"
-#include "offset.glsl"
-#include "light.glsl"
-#include "seen.glsl"
-#include "features.glsl"
-#include "terminator.glsl"
 #include "direct.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
+#include "random.glsl"
+#include "shared_camera.h"
+#include "shared_guide.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 #include "traverse.glsl"
 
 ARGS(WeighArgs)

@@ -1,5 +1,7 @@
 /// Density estimates: normalised kernels, no bias over uniform photons, and only photons that should count.
 #include "photons_on_device.h"
+#include "shared_camera.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "output/exr.h"
 #include "program.h"
 #include "render_support.h"
+#include "shared_layers.h"
 #include <cstring>
 #include <fmt/format.h>
 

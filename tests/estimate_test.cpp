@@ -3,6 +3,7 @@
 #include "render/error_estimate.h"
 #include "output/exr.h"
 #include "render/noise.h"
+#include "shared_layers.h"
 #include <gtest/gtest.h>
 #include <numeric>
 

@@ -5,6 +5,8 @@
 /// Watertight meshes follow from that: where all displaced rays hit a surface, so must the ray.
 #pragma once
 #include "scene/scene.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <span>

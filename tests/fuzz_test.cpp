@@ -8,6 +8,8 @@
 #include "render/explain.h"
 #include "scene/identity.h"
 #include "scene_text.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 #include <chrono>
 #include <csignal>
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 /// The photon grid: every photon in one cell, and every query finds exactly the neighbours of a search through all.
 #include "photons_on_device.h"
 #include "scene/scene.h"
+#include "shared_camera.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>

@@ -1,6 +1,7 @@
 /// Rays on the host in double precision, through our hierarchy: the yardstick for its tests.
 #pragma once
 #include "scene/bvh.h"
+#include "shared_scene.h"
 #include <cmath>
 #include <functional>
 #include <limits>

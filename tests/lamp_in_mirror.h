@@ -2,6 +2,7 @@
 #pragma once
 #include "output/image.h"
 #include "render_support.h"
+#include "shared_scene.h"
 #include <numbers>
 
 namespace vkpm {

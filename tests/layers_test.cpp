@@ -1,5 +1,6 @@
 /// Each layer of the photon integrator against the path tracer, which counts the same paths.
 #include "render_support.h"
+#include "shared_layers.h"
 #include <gtest/gtest.h>
 #include <map>
 

@@ -1,4 +1,4 @@
-"""Writes C++ that asserts that structs of shared.h have the layout in C++ that they have in the kernels.
+"""Writes C++ that asserts that structs of shared_*.h have the layout in C++ that they have in the kernels.
 
 Usage: layouts.py OUTPUT.cpp KERNEL.spv...
 
@@ -9,6 +9,7 @@ import struct
 import sys
 from pathlib import Path
 
+SHADERS = Path(__file__).parent.parent / "shaders"
 OP_NAME, OP_MEMBER_NAME, OP_TYPE_RUNTIME_ARRAY, OP_TYPE_STRUCT, OP_DECORATE, OP_MEMBER_DECORATE = 5, 6, 29, 30, 71, 72
 ARRAY_STRIDE, OFFSET = 6, 35
 
@@ -56,7 +57,8 @@ def main() -> None:
         asserts |= {f"static_assert(sizeof(vkpm::{kind}) == {stride});" for kind, stride in strides.items()}
     if len(asserts) < 100:
         sys.exit(f"layouts.py: found {len(asserts)} layouts; kernels were compiled without names")
-    output.write_text("// Made by layouts.py.\n#include \"shared.h\"\n#include <cstddef>\n" + "\n".join(sorted(asserts)) + "\n")
+    includes = "".join(f"#include \"{header.name}\"\n" for header in sorted(SHADERS.glob("shared_*.h")))
+    output.write_text("// Made by layouts.py.\n" + includes + "#include <cstddef>\n" + "\n".join(sorted(asserts)) + "\n")
 
 
 main()

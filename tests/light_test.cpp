@@ -35,7 +35,7 @@ void expectFrequencies(const std::vector<float>& cdf, uint hasManyLights) {
         for (const float u : {end, std::nextafter(end, 0.0f)})
             if (u < 1) us.push_back(u);
     const TestScene scene = sceneWith(std::vector<Light>(cdf.size(), rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})), cdf);
-    const auto chosen = map<uint>("choose_light", us, {.hasManyLights = hasManyLights}, scene.context());
+    const auto chosen = map<uint>("choose_light", us, {.hasManyLights = hasManyLights != 0}, scene.context());
     std::vector<double> counts(cdf.size());
     for (std::size_t i = 0; i < us.size(); i++) {
         ASSERT_LT(chosen[i], cdf.size());

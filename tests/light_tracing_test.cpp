@@ -1,5 +1,6 @@
 /// Light tracing against the path tracer, which finds the same paths from the other end.
 #include "render_support.h"
+#include "shared_scene.h"
 #include <gtest/gtest.h>
 
 namespace vkpm {

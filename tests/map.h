@@ -2,6 +2,8 @@
 #pragma once
 #include "gpu/recording.h"
 #include "map_args.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 

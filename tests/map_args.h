@@ -1,12 +1,13 @@
 // What the shader tests' kernels read: the arguments of a map, and its elements where a vector is not enough.
 //
-// Read by C++ and GLSL like shared.h, which GLSL includes before.
+// Read by C++ and GLSL like shared_*.h.
+#ifndef MAP_ARGS_H
+#define MAP_ARGS_H
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 
-#ifdef __cplusplus
-#pragma once
-#include "shared.h"
-namespace vkpm {
-#endif
+SHARED_BEGIN
 
 struct MapArgs {
     ADDRESS(uint) xs; // their types are the kernel's
@@ -152,6 +153,5 @@ struct CameraCase {
     vec2 film;
 };
 
-#ifdef __cplusplus
-} // namespace vkpm
+SHARED_END
 #endif

@@ -23,7 +23,7 @@ double schlick(double eta, double cosI) {
     return r + (1 - r) * std::pow(1 - (eta > 1 ? cosI : std::sqrt(1 - sin2)), 5);
 }
 
-Features fresnelFeatures(uint schlick) { return {.hasExactFresnel = 1 - schlick, .hasSchlickFresnel = schlick}; }
+Features fresnelFeatures(bool schlick) { return {.hasExactFresnel = !schlick, .hasSchlickFresnel = schlick}; }
 
 float reflectance(double eta, double cosI, uint hasSchlick = 0) {
     return map<float>("fresnel_reflectance", std::vector{vec2{eta, cosI}}, fresnelFeatures(hasSchlick))[0];

@@ -105,7 +105,7 @@ TEST(Surface, OfATriangle) {
     for (const float side : {1.0f, -1.0f}) {
         scene.normals = {{side * na, side * nb, side * nc}};
         const TestScene uploaded(scene);
-        for (const uint smooth : {0u, 1u}) {
+        for (const bool smooth : {false, true}) {
             const SurfaceCase x{.path = {}, .hit = {1, 0, vec2{0.25f, 0.5f}}};
             const SurfaceValues y = map<SurfaceValues>("surface_at", std::vector{x}, {.hasSmoothNormals = smooth}, uploaded.context())[0];
             EXPECT_EQ(y.position, (vec3{1.5f, 3.5f, 3}));

@@ -5,6 +5,7 @@
 #include "output/png.h"
 #include "output/statistics.h"
 #include "scene/scene.h"
+#include "shared_layers.h"
 #include <algorithm>
 #include <bit>
 #include <csignal>

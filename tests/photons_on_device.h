@@ -3,6 +3,8 @@
 #include "judge.h"
 #include "map.h"
 #include "render/photon_grid.h"
+#include "shared_camera.h"
+#include "shared_photons.h"
 
 namespace vkpm {
 

@@ -1,5 +1,7 @@
 /// Renders with results in closed form: furnace, photon ledger, form factors, plates, and exact symmetries.
 #include "render_support.h"
+#include "shared_layers.h"
+#include "shared_photons.h"
 #include <gtest/gtest.h>
 #include <cstring>
 #include <numbers>

@@ -165,11 +165,11 @@ std::vector<GlassRange> glassRanges() {
     return ranges;
 }
 
-void judgeFresnel(const char* name, uint schlick, double (*exact)(const Inputs<2>&), const GlassBounds& bounds) {
+void judgeFresnel(const char* name, bool schlick, double (*exact)(const Inputs<2>&), const GlassBounds& bounds) {
     const vec2* bound = bounds.data();
     for (const GlassRange& range : glassRanges()) {
         const auto ys = map<float>("fresnel_reflectance", range.inputs,
-                                   {.hasExactFresnel = 1 - schlick, .hasSchlickFresnel = schlick});
+                                   {.hasExactFresnel = !schlick, .hasSchlickFresnel = schlick});
         Precision precision(name, range.where);
         for (std::size_t i = 0; i < ys.size(); i++) precision.add(double{ys[i]}, doublesOf(range.inputs[i]), exact);
         judge(precision, double{bound->x}, double{bound->y});

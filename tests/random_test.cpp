@@ -1,6 +1,7 @@
 /// Owen-scrambled Sobol points: nets, scrambling, hashes, and sequences that know nothing of each other.
 #include "judge.h"
 #include "map.h"
+#include "shared_paths.h"
 #include <algorithm>
 #include <bit>
 #include <gtest/gtest.h>

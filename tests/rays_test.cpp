@@ -3,6 +3,7 @@
 #include "render/features.h"
 #include "scene_on_device.h"
 #include "scene_rays.h"
+#include "shared_camera.h"
 #include <gtest/gtest.h>
 #include <numeric>
 

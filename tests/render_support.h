@@ -3,6 +3,7 @@
 #include "render/radius.h"
 #include "render/renderer.h"
 #include "scene_text.h"
+#include "shared_layers.h"
 #include <array>
 #include <cmath>
 

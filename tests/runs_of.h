@@ -1,6 +1,7 @@
 /// The runs that a film keeps of a range of passes.
 #pragma once
 #include "render/pass_runs.h"
+#include "shared_film.h"
 #include <vector>
 
 namespace vkpm {

@@ -4,6 +4,7 @@
 #include "map.h"
 #include "render/uploaded_scene.h"
 #include "scene/bvh.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 

@@ -1,6 +1,7 @@
 /// Random rays in a scene, and those that tests of rays find hard.
 #pragma once
 #include "exact_rays.h"
+#include "shared_scene.h"
 #include <random>
 #include <vector>
 

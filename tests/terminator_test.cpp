@@ -1,6 +1,7 @@
 /// Coarse meshes with smooth normals against what they stand for: the light of a sphere, without stairs, for light samples and photons
 /// alike, and furnaces that lose none.
 #include "render_support.h"
+#include "shared_layers.h"
 #include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 /// Traversal: closed meshes let no ray slip through, and hits equal those of a search through all primitives.
 #include "judge.h"
 #include "scene_on_device.h"
+#include "shared_paths.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <map>

@@ -6,6 +6,7 @@
 #include "window/scene_watch.h"
 #include "window/tone.h"
 #include "window/view_camera.h"
+#include "shared_layers.h"
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>

@@ -2,6 +2,8 @@
 #pragma once
 #include "scene/embree.h"
 #include "scene/scene.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 

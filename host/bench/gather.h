@@ -3,6 +3,7 @@
 #include "bench/host_grid.h"
 #include "bench/measure.h"
 #include "scene/scene.h"
+#include "shared_camera.h"
 
 namespace vkpm {
 

@@ -1,6 +1,6 @@
 /// A plain grid of photons on the host: the yardstick of gathers.
 #pragma once
-#include "shared.h"
+#include "shared_camera.h"
 #include <vector>
 
 namespace vkpm {

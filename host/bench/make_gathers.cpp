@@ -1,6 +1,7 @@
 /// How the photons and the queries of the benchmark are made.
 #include "bench/gather.h"
 #include "bench/random.h"
+#include "shared_scene.h"
 #include <algorithm>
 
 namespace vkpm {

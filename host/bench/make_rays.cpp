@@ -1,6 +1,7 @@
 /// How the rays of the benchmark are made.
 #include "bench/random.h"
 #include "bench/rays.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 namespace {

@@ -1,6 +1,7 @@
 /// The speed of sorting and of copying.
 #include "bench/memory.h"
 #include "render/sort.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <cstring>
 #include <execution>

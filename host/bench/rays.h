@@ -2,6 +2,8 @@
 #pragma once
 #include "bench/embree_scene.h"
 #include "bench/measure.h"
+#include "shared_camera.h"
+#include "shared_paths.h"
 
 namespace vkpm {
 

@@ -1,6 +1,7 @@
 /// What lets a kernel that works on a queue work on everything.
 #pragma once
 #include "gpu/buffer.h"
+#include "shared_paths.h"
 #include <numeric>
 
 namespace vkpm {

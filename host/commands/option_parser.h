@@ -1,6 +1,7 @@
 /// What the command line is read with: values of options, refused with what is allowed, and one command's parser.
 #pragma once
 #include "scene/scene.h"
+#include "shared_film.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>

@@ -5,6 +5,7 @@
 #include "job/memory_advice.h"
 #include "render/renderer.h"
 #include "render/explain.h"
+#include "shared_film.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

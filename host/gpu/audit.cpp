@@ -1,6 +1,7 @@
 /// The tests of the driver audit and what they expect.
 #include "gpu/audit.h"
 #include "gpu/recording.h"
+#include "shared_audit.h"
 #include <cstring>
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/instance.h"
 #include "gpu/kernel.h"
+#include "shared_paths.h"
 #include <deque>
 #include <functional>
 

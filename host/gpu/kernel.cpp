@@ -7,23 +7,33 @@ namespace vkpm {
 
 const std::size_t keptKernels = 64; // after their last renderer; about a megabyte each on lavapipe
 
-// The fields of Features are all uint, in the order of FEATURES.
-static const std::array featureEntries{
-#define X(id, name, value) vk::SpecializationMapEntry{.constantID = id, .offset = offsetof(Features, name), .size = sizeof(uint)},
+static const std::array featureIds{
+#define X(id, type, name, value) std::uint32_t(id),
     FEATURES(X)
 #undef X
 };
+using FeatureWords = std::array<std::uint32_t, featureIds.size()>;
 
-static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name, const Features& features, std::uint32_t argsBytes) {
+static FeatureWords wordsOf(const Features& features) {
+    return {
+#define X(id, type, name, value) features.name,
+        FEATURES(X)
+#undef X
+    };
+}
+
+static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name, const FeatureWords& features, std::uint32_t argsBytes) {
     auto handles = std::make_shared<RawKernel::Handles>();
     handles->name = name;
     const auto words = findSpirv(name);
+    std::array<vk::SpecializationMapEntry, featureIds.size()> entries;
+    for (std::uint32_t i = 0; i < entries.size(); i++) entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
     attempt("creating the kernel " + name, "", [&] {
         const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()});
         const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = argsBytes};
         handles->layout = device.createPipelineLayout({.pushConstantRangeCount = 1, .pPushConstantRanges = &range});
-        const vk::SpecializationInfo constants{.mapEntryCount = featureEntries.size(), .pMapEntries = featureEntries.data(),
-                                               .dataSize = sizeof(Features), .pData = &features};
+        const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(),
+                                               .dataSize = sizeof(features), .pData = features.data()};
         const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute, .module = *module,
                                                       .pName = "main", .pSpecializationInfo = &constants};
         handles->pipeline = device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = *handles->layout});
@@ -42,11 +52,12 @@ static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKerne
 }
 
 RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {
-    const std::string featureBytes(reinterpret_cast<const char*>(&features), sizeof(features));
+    const FeatureWords words = wordsOf(features);
+    const std::string featureBytes(reinterpret_cast<const char*>(words.data()), sizeof(words));
     std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(name).data(), featureBytes}];
     handles = known.lock();
     if (handles) return;
-    known = handles = compile(gpu.handles->device, name, features, argsBytes);
+    known = handles = compile(gpu.handles->device, name, words, argsBytes);
     if (gpu.compilesAhead) warmUp(*gpu.handles, handles, argsBytes);
     gpu.handles->recent.push_back(handles);
     if (gpu.handles->recent.size() > keptKernels) gpu.handles->recent.pop_front();

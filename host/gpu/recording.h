@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
+#include "shared_paths.h"
 
 namespace vkpm {
 

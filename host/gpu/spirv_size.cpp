@@ -22,7 +22,7 @@ static std::size_t countInFunctions(const std::vector<std::uint32_t>& words) {
 
 std::size_t instructionCount(std::string_view kernel, const Features& features) {
     const std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values{
-#define X(id, name, value) {id, {features.name}},
+#define X(id, type, name, value) {id, {features.name}},
         FEATURES(X)
 #undef X
     };

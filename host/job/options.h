@@ -1,6 +1,7 @@
 /// What a command asks of a render.
 #pragma once
 #include "scene/settings.h"
+#include "shared_film.h"
 #include <filesystem>
 #include <optional>
 #include <span>

@@ -3,6 +3,7 @@
 #include "output/image.h"
 #include "render/film.h"
 #include "scene/settings.h"
+#include "shared_film.h"
 #include <filesystem>
 
 namespace vkpm {

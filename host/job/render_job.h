@@ -7,6 +7,7 @@
 #include "output/statistics.h"
 #include "render/renderer.h"
 #include "job/render_file.h"
+#include "shared_film.h"
 #include <chrono>
 
 namespace vkpm {

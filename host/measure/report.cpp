@@ -5,6 +5,7 @@
 #include "output/exr.h"
 #include "measure/report_page.h"
 #include "scene/settings.h"
+#include "shared_layers.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

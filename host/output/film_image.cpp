@@ -1,6 +1,7 @@
 /// The film as an image with the layers and features that users find in the EXR file.
 #include "output/film_image.h"
 #include "scene/settings.h"
+#include "shared_layers.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>

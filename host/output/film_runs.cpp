@@ -2,6 +2,7 @@
 #include "output/film_runs.h"
 #include "error.h"
 #include "scene/settings.h"
+#include "shared_film.h"
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -2,6 +2,7 @@
 #pragma once
 #include "output/image.h"
 #include "render/pixel.h"
+#include "shared_film.h"
 #include <span>
 
 namespace vkpm {

@@ -25,7 +25,7 @@ Json photonsJson(const PhotonCounts& counts) {
 
 Json featuresJson(const Features& features) {
     Json object = Json::object();
-#define X(id, name, value) object[#name] = features.name;
+#define X(id, type, name, value) object[#name] = uint(features.name);
     FEATURES(X)
 #undef X
     return object;

@@ -1,6 +1,10 @@
 /// The camera loop: eye, then trace, shade, shadow and gather until no path is under way.
 #include "render/camera_paths.h"
 #include "render/features.h"
+#include "shared_camera.h"
+#include "shared_film.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <cmath>
 

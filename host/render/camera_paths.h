@@ -2,6 +2,10 @@
 #pragma once
 #include "render/compaction.h"
 #include "render/uploaded_scene.h"
+#include "shared_camera.h"
+#include "shared_guide.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
 #include <optional>
 
 namespace vkpm {

@@ -1,5 +1,6 @@
 /// Stream compaction: tally, scan, compact, enqueue.
 #include "render/compaction.h"
+#include "shared_paths.h"
 #include <algorithm>
 #include <utility>
 

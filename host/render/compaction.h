@@ -1,6 +1,8 @@
 /// Sorting paths into queues: which of them go on, and what else they ask for.
 #pragma once
 #include "gpu/recording.h"
+#include "shared_paths.h"
+#include "shared_sort.h"
 
 namespace vkpm {
 

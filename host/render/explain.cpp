@@ -1,6 +1,7 @@
 /// Features in words.
 #include "render/explain.h"
 #include "render/features.h"
+#include "shared_layers.h"
 #include <fmt/format.h>
 
 namespace vkpm {

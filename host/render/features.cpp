@@ -2,6 +2,8 @@
 #include "render/features.h"
 #include "scene/glass.h"
 #include "scene/lights.h"
+#include "shared_layers.h"
+#include "shared_scene.h"
 #include <algorithm>
 
 namespace vkpm {

@@ -1,6 +1,9 @@
 /// The film, and its means on the host.
 #include "render/film.h"
 #include "render/noise.h"
+#include "shared_film.h"
+#include "shared_layers.h"
+#include "shared_paths.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -3,6 +3,9 @@
 #include "gpu/recording.h"
 #include "render/pass_runs.h"
 #include "render/pixel.h"
+#include "shared_film.h"
+#include "shared_layers.h"
+#include "shared_paths.h"
 #include <algorithm>
 #include <array>
 #include <functional>

@@ -1,6 +1,9 @@
 /// The pilot: a few paths from the eye, then rounds of photons.
 #include "render/guide.h"
 #include "scene/lights.h"
+#include "shared_guide.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>

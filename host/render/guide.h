@@ -3,6 +3,7 @@
 #include "render/camera_paths.h"
 #include "render/guide_tree.h"
 #include "render/photon_tracing.h"
+#include "shared_photons.h"
 
 namespace vkpm {
 

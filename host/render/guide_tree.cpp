@@ -1,5 +1,6 @@
 /// Boxes are cut where that saves most, until too few photons are left in them; then cuts that do not pay are undone.
 #include "render/guide_tree.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 /// Which photons to start: a density over the numbers that start them, learned from some that were started.
 #pragma once
-#include "shared.h"
+#include "shared_photons.h"
 #include <array>
 #include <span>
 #include <vector>

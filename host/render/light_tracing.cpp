@@ -1,5 +1,6 @@
 /// The order of light tracing: photons, splats, sort; then sums by pixel.
 #include "render/light_tracing.h"
+#include "shared_splat.h"
 #include <bit>
 
 namespace vkpm {

@@ -2,6 +2,7 @@
 #pragma once
 #include "render/photon_tracing.h"
 #include "render/sort.h"
+#include "shared_splat.h"
 
 namespace vkpm {
 

@@ -1,5 +1,6 @@
 /// Variance by batches, and what low-discrepancy points make of it.
 #include "render/noise.h"
+#include "shared_film.h"
 #include <algorithm>
 #include <cmath>
 

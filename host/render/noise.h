@@ -1,6 +1,7 @@
 /// How far the mean of passes may be from its expectation, by how batches of passes differ.
 #pragma once
 #include "render/pass_runs.h"
+#include "shared_film.h"
 #include <vector>
 
 namespace vkpm {

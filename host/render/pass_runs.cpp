@@ -1,5 +1,6 @@
 /// Which runs of passes may be added.
 #include "render/pass_runs.h"
+#include "shared_film.h"
 #include <algorithm>
 #include <vector>
 

@@ -1,6 +1,6 @@
 /// In what order the passes of a render are added up, so that every way to split it gives the same bits.
 #pragma once
-#include "shared.h"
+#include "shared_film.h"
 #include <cstddef>
 #include <span>
 

@@ -1,5 +1,7 @@
 /// Building the grid: keys, sort, arrange, cells.
 #include "render/photon_grid.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <bit>
 

@@ -1,6 +1,9 @@
 /// The sorted spatial hash grid over photons.
 #pragma once
 #include "render/sort.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_sort.h"
 #include <optional>
 
 namespace vkpm {

@@ -1,5 +1,7 @@
 /// The photon loop: emit, then trace and scatter until no photon of the wave is under way, then place those that arrived.
 #include "render/photon_tracing.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
 #include <algorithm>
 
 namespace vkpm {

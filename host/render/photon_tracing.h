@@ -2,6 +2,9 @@
 #pragma once
 #include "render/compaction.h"
 #include "render/uploaded_scene.h"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_sort.h"
 #include <optional>
 
 namespace vkpm {

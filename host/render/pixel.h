@@ -1,6 +1,6 @@
 /// A pixel as the host knows it: of a column that a render does without it has zeros.
 #pragma once
-#include "shared.h"
+#include "shared_layers.h"
 
 namespace vkpm {
 

@@ -1,5 +1,7 @@
 /// Radii by the size of the scene and by the pass.
 #include "render/radius.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

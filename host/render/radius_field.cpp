@@ -1,6 +1,7 @@
 /// The pilot's photons, counted by cell.
 #include "render/radius_field.h"
 #include "hash.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <array>
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/recording.h"
 #include "scene/scene.h"
+#include "shared_photons.h"
 
 namespace vkpm {
 

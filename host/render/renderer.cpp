@@ -1,5 +1,6 @@
 /// Stages and their order.
 #include "render/renderer.h"
+#include "shared_photons.h"
 #include <algorithm>
 #include <ranges>
 

@@ -9,6 +9,7 @@
 #include "render/photon_tracing.h"
 #include "render/radius.h"
 #include "render/radius_field.h"
+#include "shared_photons.h"
 #include <cmath>
 #include <optional>
 

@@ -1,5 +1,7 @@
 /// The radix sort: per digit a count, a scan and a scatter.
 #include "render/sort.h"
+#include "shared_paths.h"
+#include "shared_sort.h"
 #include <utility>
 
 namespace vkpm {

@@ -1,6 +1,8 @@
 /// A stable sort of key-value pairs on the device.
 #pragma once
 #include "gpu/recording.h"
+#include "shared_paths.h"
+#include "shared_sort.h"
 
 namespace vkpm {
 

@@ -1,5 +1,6 @@
 /// Upload of a scene.
 #include "render/uploaded_scene.h"
+#include "shared_scene.h"
 #include <stdexcept>
 
 namespace vkpm {
@@ -48,7 +49,7 @@ void UploadedScene::look(const View& view, uvec2 size) {
 void UploadedScene::requireNothingMissing() const {
     const std::vector<uint> bits = missing.download();
     std::string names;
-#define X(id, name, value) names += bits[id / 32] >> id % 32 & 1 ? " " #name : "";
+#define X(id, type, name, value) names += bits[id / 32] >> id % 32 & 1 ? " " #name : "";
     FEATURES(X)
 #undef X
     if (!names.empty()) throw std::logic_error("features were left out that the scene needs:" + names);

@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/buffer.h"
 #include "scene/scene.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 

@@ -1,6 +1,6 @@
 /// Small spheres that enclose given points.
 #pragma once
-#include "shared.h"
+#include "shared_scene.h"
 #include <span>
 
 namespace vkpm {

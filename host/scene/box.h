@@ -1,6 +1,7 @@
 /// Bounding boxes of primitives, rounded outward.
 #pragma once
 #include "scene/scene.h"
+#include "shared_scene.h"
 
 namespace vkpm {
 

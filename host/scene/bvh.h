@@ -1,6 +1,6 @@
 /// Bounding volume hierarchies of triangles and spheres, built by Embree and laid out for the kernels.
 #pragma once
-#include "shared.h"
+#include "shared_scene.h"
 #include <span>
 #include <vector>
 

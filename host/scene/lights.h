@@ -1,6 +1,7 @@
 /// Area lights: their flux and the probabilities with which they are chosen.
 #pragma once
 #include "scene/scene.h"
+#include "shared_scene.h"
 #include <span>
 
 namespace vkpm {

@@ -3,7 +3,7 @@
 #include "error.h"
 #include "scene/coordinates.h"
 #include "scene/settings.h"
-#include "shared.h"
+#include "shared_scene.h"
 #include <filesystem>
 #include <limits>
 #include <string>

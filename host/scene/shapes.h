@@ -5,6 +5,7 @@
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/transform.h"
+#include "shared_scene.h"
 #include <map>
 #include <span>
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu/instance.h"
 #include "window/presenter.h"
+#include "shared_paths.h"
 #include <vector>
 
 namespace vkpm {

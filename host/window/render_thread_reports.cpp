@@ -1,6 +1,7 @@
 /// What the thread has to tell: pictures, numbers, files, failures.
 #include "render/radius.h"
 #include "window/render_thread.h"
+#include "shared_photons.h"
 #include <fmt/format.h>
 
 namespace vkpm {

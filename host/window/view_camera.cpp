@@ -1,5 +1,6 @@
 /// Views that orbit, turn, pan, dolly and fly, in double precision.
 #include "window/view_camera.h"
+#include "shared_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>

@@ -2,10 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sampling.glsl"
-#include "frame.glsl"
 #include "light.glsl"
-#include "features.glsl"
 #include "targets.glsl"
 
 vec4 aimed(AimCase x) {

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
+#include "shared_audit.h"
 
 ARGS(AuditArgs)
 

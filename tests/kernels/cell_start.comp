@@ -2,7 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "random.glsl"
-#include "grid.glsl"
 
 MAP(uint, uint, uintPtr(args.photons.cells).at[x])

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sampling.glsl"
 #include "light.glsl"
 
 MAP(float, uint, chooseLight(args.scene.at[0], args.scene.at[0].lightCdf, x))

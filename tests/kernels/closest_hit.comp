@@ -2,9 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "offset.glsl"
+#include "shared_paths.h"
 #include "traverse.glsl"
 
 MAP(VectorPair, Hit, closest(args.scene.at[0], x.a, x.b, NONE))

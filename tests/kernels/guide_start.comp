@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "../map_args.h"
-#include "random.glsl"
 #include "guide.glsl"
+#include "shared_photons.h"
 
 ARGS(GuideStartArgs)
 

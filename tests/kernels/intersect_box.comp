@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sphere.glsl"
 #include "intersect.glsl"
 
 MAP(BoxCase, float, intersectBox(makeRay(x.origin, x.direction), x.low, x.high, GREATEST))

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sphere.glsl"
 #include "intersect.glsl"
 
 vec3 hit(TriangleCase x) {

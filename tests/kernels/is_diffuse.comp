@@ -2,9 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
-#include "surface.glsl"
 #include "material.glsl"
+#include "shared_scene.h"
 
 MAP(Material, uint, uint(isDiffuse(x)))

@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
 #include "../map_args.h"
-#include "random.glsl"
 #include "marks.glsl"
 
 ARGS(IsMarkedArgs)

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sphere.glsl"
 #include "intersect.glsl"
-#include "offset.glsl"
+#include "shared_paths.h"
+#include "shared_scene.h"
 #include "surface.glsl"
 
 Leaving again(LeavingCase x) {

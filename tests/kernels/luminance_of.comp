@@ -2,7 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sampling.glsl"
-#include "light.glsl"
 
 MAP(vec3, float, luminance(x))

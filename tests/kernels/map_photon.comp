@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "random.glsl"
-#include "grid.glsl"
+#include "shared_photons.h"
 
 MAP(uint, Photon, PhotonPtr(args.photons.photons).at[x])

@@ -2,9 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sphere.glsl"
-#include "intersect.glsl"
-#include "offset.glsl"
 #include "traverse.glsl"
 
 MAP(VectorPair, uint, uint(occluded(args.scene.at[0], x.a, x.b, NONE)))

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "random.glsl"
 #include "radius_field.glsl"
 
 MAP(vec3, float, radiusAt(args.photons, x))

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "sampling.glsl"
 #include "light.glsl"
+#include "shared_scene.h"
 
 LightValues values(LightPoint p) { return LightValues(p.position, p.magnitude, p.normal); }
 

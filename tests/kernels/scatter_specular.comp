@@ -2,10 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
-#include "surface.glsl"
 #include "material.glsl"
+#include "surface.glsl"
 
 ScatterValues scatter(ScatterCase x) {
     Surface surface; // of which scattering reads the normals alone

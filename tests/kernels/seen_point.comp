@@ -2,11 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "random.glsl"
-#include "sampling.glsl"
-#include "frame.glsl"
-#include "light.glsl"
 #include "seen.glsl"
+#include "shared_scene.h"
 
 SeenValues values(SeenPoint p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.solidAngle); }
 

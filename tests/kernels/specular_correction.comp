@@ -2,9 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
-#include "surface.glsl"
 #include "material.glsl"
 
 MAP(CorrectionCase, float, specularCorrection(x.wi, x.wo, x.normal, x.geometric))

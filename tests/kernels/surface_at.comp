@@ -2,8 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "offset.glsl"
-#include "sphere.glsl"
 #include "surface.glsl"
 
 SurfaceValues values(Surface s) {

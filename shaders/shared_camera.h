@@ -1,0 +1,114 @@
+// The camera pass.
+#ifndef SHARED_CAMERA_H
+#define SHARED_CAMERA_H
+#include "shared.h"
+#include "shared_photons.h"
+
+SHARED_BEGIN
+
+/// A light sample that counts if nothing stands between the two points.
+struct ShadowRay {
+    vec3 origin;
+    uint from; // primitive that the ray leaves
+    vec3 target;
+    vec3 radiance;
+    uint column; // of the samples, to which the radiance is added
+    uint through; // 1: through a smooth mesh, see terminator.glsl
+};
+BUFFER(ShadowRay)
+
+/// A point whose irradiance is estimated from a photon map; it adds weight times irradiance to the samples.
+struct Query {
+    vec3 position;
+    vec3 normal; // geometric, on the side of the viewer
+    vec3 weight;
+    uint column; // of the samples; NONE: a map of narrow discs has answered
+    float footprint; // radius that a pixel covers there
+};
+BUFFER(Query)
+
+/// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays start.
+struct Split {
+    vec3 origin;
+    vec3 normal; // geometric, on the side of the viewer
+    vec3 shading;
+    vec3 throughput; // of all gather rays together, the albedo included
+    uint from;       // primitive that the rays leave
+    uint flags;      // as in Path; NONE: there is no such point
+    float bulge;     // on the side of the normal, see terminator.glsl
+};
+BUFFER(Split)
+
+struct EyeArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(float) samples; // [column][stride]
+    PTR(uint) list;
+    PTR(Split) splits; // become none
+    uint stride;
+    uvec2 size;
+    uint firstPixel;
+    uint count;
+    uint pass;
+    uint seed;
+    uint centered;  // 1: through the middle of the pixel
+    uint splitting; // 1: there are splits
+};
+
+struct ShadeArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Hit) hits;
+    PTR(float) samples; // [column][stride]
+    PTR(ShadowRay) shadowRays;
+    PTR(Query) queries;
+    PTR(Split) splits;
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) flags;
+    uint stride;
+    uint firstPixel;
+    uint sequence; // SAMPLES_...
+    uint index;    // of the sample in its sequence
+    uint seed;
+    uint bounce;
+    uint caustics; // ask the caustic map; photon-map integrator: it, and not the global one
+    float nearDistance; // a gather ray shorter than this goes on
+    float pixelAngle;   // width of a pixel over its distance
+    uint integrator;    // INTEGRATOR_...
+};
+
+struct SplitArgs {
+    PTR(DeviceScene) scene;
+    PTR(Split) splits;
+    PTR(Path) paths;
+    PTR(ShadowRay) shadowRays;
+    PTR(uint) list;
+    PTR(uint) flags;
+    uint firstPixel;
+    uint count;
+    uint index; // of the sample in its sequence
+    uint seed;
+    float share; // of a gather ray and of a light sample
+};
+
+struct ShadowArgs {
+    PTR(DeviceScene) scene;
+    PTR(ShadowRay) shadowRays;
+    PTR(float) samples; // [column][stride]
+    PTR(Queue) queue;
+    PTR(uint) list;
+    uint stride;
+};
+
+struct GatherArgs {
+    PhotonMap map;
+    PTR(Query) queries;
+    PTR(float) samples; // [column][stride]
+    PTR(Queue) queue;
+    PTR(uint) list;
+    uint stride;
+};
+
+SHARED_END
+#endif

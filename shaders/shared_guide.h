@@ -1,0 +1,41 @@
+// Where the eye looks, and what is useful there.
+#ifndef SHARED_GUIDE_H
+#define SHARED_GUIDE_H
+#include "shared.h"
+#include "shared_camera.h"
+
+SHARED_BEGIN
+
+const uint MARK_WORDS = 1u << 18; // of a set of cells, see marks.glsl; one more has a bit for each level in use
+
+struct MarkArgs {
+    PhotonMap map;
+    PTR(Query) queries;
+    PTR(Queue) queue;
+    PTR(uint) list;
+    PTR(uint) marks;
+    float cellWidth; // of the finest level
+    float reach;     // part of a query's footprint that it marks, if that is more than the map's radius there
+};
+
+struct WeighArgs {
+    PTR(DeviceScene) scene;
+    PTR(Split) splits;
+    PTR(float) values; // [split][light of it]: luminance that it brings
+    uint count; // of values
+    uint lightsEach; // lights that a split is asked about
+    uint stride; // one split of so many is asked
+    uint seed;
+};
+
+struct UsefulArgs {
+    PTR(Photon) photons;
+    PTR(uint) offsets; // of the paths' photons
+    PTR(uint) marks;
+    PTR(Start) starts;
+    uint count; // of paths
+    float cellWidth;
+};
+
+SHARED_END
+#endif

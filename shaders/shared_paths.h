@@ -1,0 +1,93 @@
+// Paths: photons from the lights and rays from the eye, and the queues that they wait in.
+#ifndef SHARED_PATHS_H
+#define SHARED_PATHS_H
+#include "shared.h"
+#include "shared_scene.h"
+#include "shared_layers.h"
+
+SHARED_BEGIN
+
+// Sequences of sample points of a pixel.
+const uint SAMPLES_EYE = 0u;    // a point for each pass: the place in the pixel and all that follows
+const uint SAMPLES_GATHER = 1u; // one for each gather ray of each pass
+
+/// What a dispatch reads on the device: how many groups, and which part of a list they work on.
+struct Queue {
+    uint groupsX; // the first three are VkDispatchIndirectCommand
+    uint groupsY;
+    uint groupsZ;
+    uint first; // index into the list
+    uint count;
+    uint base; // elements that this queue has had in earlier rounds
+};
+BUFFER(Queue)
+
+/// A ray under way, of a photon or from the eye.
+struct Path {
+    vec3 origin;
+    vec3 direction;
+    vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
+    float travelled; // since the last diffuse vertex
+    uint from;       // primitive that the ray leaves, or NONE
+    uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
+};
+const uint PATH_EYE_SPECULAR = 1u;                  // eye: the first vertex was specular
+const uint PATH_SPECULAR = 2u;                      // one specular vertex since the last diffuse one
+const uint PATH_SPECULARS = 63u * PATH_SPECULAR;    // all of these that are counted
+const uint PATH_THROUGH = 1u << 7;                  // goes through a smooth mesh, see terminator.glsl
+const uint PATH_DIFFUSE_SHIFT = 8u;
+BUFFER(Path)
+
+/// Where a ray ends: distance in units of its direction's length, primitive or NONE, barycentric weights of b and c.
+struct Hit {
+    float t;
+    uint primitive;
+    vec2 weights;
+};
+BUFFER(Hit)
+
+/// What the host reads after a step: counters.
+struct Status {
+    uint arrivals;  // photons for the map, whether there was room or not
+    uint absorbed;  // photons
+    uint escaped;   // photons that left the scene or missed what they were aimed at
+    uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
+};
+const uint NONFINITE_PHOTON = LAYER_COUNT;
+BUFFER(Status)
+
+// Bits of a path's flags after a step; bit k puts the path into queue k.
+const uint QUEUE_CONTINUE = 0u;
+const uint PHOTON_QUEUES = 1u;
+const uint QUEUE_SHADOW = 1u; // eye
+const uint QUEUE_CAUSTIC = 2u;
+const uint QUEUE_GLOBAL = 3u;
+const uint EYE_QUEUES = 4u;
+
+struct TraceArgs {
+    PTR(DeviceScene) scene;
+    PTR(Path) paths;
+    PTR(Hit) hits;
+    PTR(Queue) queue;
+    PTR(uint) list;
+};
+
+struct TallyArgs {
+    PTR(Queue) queue;
+    PTR(uint) flags;
+    PTR(uint) sums; // [kind][block]
+    uint kinds;
+};
+
+struct CompactArgs {
+    PTR(Queue) queues; // one per kind; the first is the one that is compacted
+    PTR(uint) list;
+    PTR(uint) flags;
+    PTR(uint) sums;
+    PTR(Queue) nextQueues;
+    PTR(uint) nextList;
+    uint kinds;
+};
+
+SHARED_END
+#endif

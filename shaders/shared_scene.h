@@ -1,0 +1,133 @@
+// A scene as kernels read it.
+#ifndef SHARED_SCENE_H
+#define SHARED_SCENE_H
+#include "shared.h"
+
+SHARED_BEGIN
+
+/// A bounding volume hierarchy node with the boxes of its two children packed in the parent.
+/// A child is the index of a node, or LEAF | (count - 1) << LEAF_SHIFT | first slot of `leaves`;
+/// a missing child has an inverted box.
+struct Node {
+    vec3 leftLow;
+    vec3 leftHigh;
+    vec3 rightLow;
+    vec3 rightHigh;
+    uint left;
+    uint right;
+};
+const uint LEAF = 0x80000000u;
+const uint LEAF_SHIFT = 27u;
+const uint LEAF_FIRST = 0x07ffffffu;
+BUFFER(Node)
+
+/// A primitive as traversal reads it, in the order of the leaves:
+/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x, whose point next to the
+/// origin of coordinates is c.
+struct Leaf {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    uint id;
+};
+BUFFER(Leaf)
+
+/// A triangle's Leaf by the components of its vertices.
+struct LeafNumbers {
+    float a[3];
+    float b[3];
+    float c[3];
+    uint id;
+};
+BUFFER(LeafNumbers)
+
+/// A primitive as shading reads it, in the order of the scene: triangles first, then spheres.
+/// A triangle's geometric normal is that of (b - a) x (c - a); a sphere's points outward.
+struct Primitive {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    uint material;
+    uint light;   // index into `lights`, or NONE
+    uint normals; // index into `normals`, or NONE for a flat triangle or a sphere
+};
+BUFFER(Primitive)
+
+/// Unit shading normals at the three vertices of a triangle.
+struct Normals {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+BUFFER(Normals)
+
+const uint MATERIAL_DIFFUSE = 0u; // Lambert, both sides
+const uint MATERIAL_MIRROR = 1u;  // perfect mirror, both sides
+const uint MATERIAL_GLASS = 2u;   // smooth dielectric interface, its inside against the normal
+
+struct Material {
+    uint kind;
+    vec3 color; // albedo, reflectance, or factor at each refraction, within [0, 1]
+    float ior;    // glass: index inside / index outside
+    uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
+};
+BUFFER(Material)
+
+const uint LIGHT_RECTANGLE = 0u; // a + x u + y v, x and y in [0, 1]; normal u x v
+const uint LIGHT_TRIANGLE = 1u;  // a, a + u, a + v; normal u x v
+const uint LIGHT_SPHERE = 2u;    // centre a, radius u.x; normal outward
+
+/// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
+struct Light {
+    vec3 a;
+    vec3 u;
+    vec3 v;
+    vec3 radiance;
+    uint kind;
+    uint twoSided;
+    float area;
+    float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+};
+BUFFER(Light)
+
+/// A sphere at which photons are aimed: those of caustics at that about a specular shape, those of far lights at that about all
+/// that light falls upon.
+struct Target {
+    vec3 center;
+    float radius;
+};
+BUFFER(Target)
+
+/// A pinhole camera; the ray of film position (x, y) in [0, 1]^2, y down, has the direction
+/// forward + (2 x - 1) right + (1 - 2 y) up, where |right| and |up| are the tangents of the half angles.
+struct Camera {
+    vec3 origin;
+    vec3 forward;
+    vec3 right;
+    vec3 up;
+};
+
+/// Addresses of the arrays of a scene; what a scene lacks has address 0.
+struct DeviceScene {
+    ADDRESS(Node) nodes;
+    ADDRESS(Leaf) leaves;
+    ADDRESS(Primitive) primitives;
+    ADDRESS(Normals) normals;
+    ADDRESS(Material) materials;
+    ADDRESS(Light) lights;
+    ADDRESS(float) lightCdf;  // of photons: upper ends, the last is 1
+    ADDRESS(float) directCdf; // of light samples, likewise
+    ADDRESS(Target) targets;
+    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit;  // about all that light falls upon
+    Target near; // about all but far lights
+    uint triangleCount;
+    uint lightCount;
+    uint targetCount;
+    float unit; // of lengths, in world units: a power of two
+    Camera camera;
+};
+BUFFER(DeviceScene)
+
+SHARED_END
+#endif
