@@ -17,10 +17,10 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
+from study_cells import matrix  # noqa: E402
 from study_curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows  # noqa: E402
 from study_page import time_cell  # noqa: E402
 from study_reference import Part, Reference, refine  # noqa: E402
-from study_run import matrix  # noqa: E402
 from study_vkpm import LIGHT, Vkpm, read_image  # noqa: E402
 
 STUDY = [sys.executable, str(ROOT / "tools/study.py")]
