@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "scenes/glass.json"
 OPTIONS = ["--scene", str(SCENE), "--passes", "24", "--size", "64x48", "--photons", "2000", "--quiet"]
 LOOPBACK = ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]
-DASK = [sys.executable, "-m", "dask"]
+DASK = [sys.executable, "-E", "-m", "dask"]  # as elsewhere, where the modules of the farm are not found
 
 
 @contextmanager

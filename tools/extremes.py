@@ -22,7 +22,7 @@ import extremes_light
 import extremes_photons
 import extremes_shapes
 from extremes_lab import CASES, Case, Lab, Refused, Verdict
-from study_page import STYLE, developed, picture, table
+from studies.page import STYLE, developed, picture, table
 
 MODULES = (extremes_places, extremes_light, extremes_shapes, extremes_photons)  # each registers its cases
 TIMES = 3  # as long as the tame sibling, at most

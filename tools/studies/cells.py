@@ -12,9 +12,9 @@ from functools import cached_property
 from itertools import product
 from pathlib import Path
 
-from farm_parts import digest
-from study_reference import reference_file, scene_digest
-from study_vkpm import LIGHT, ROOT, Failure, Image, Vkpm, read_image, relative_square
+from farming.parts import digest
+from studies.reference import reference_file, scene_digest
+from studies.vkpm import LIGHT, ROOT, Failure, Image, Vkpm, read_image, relative_square
 
 ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel", "gather-rays"}
 WITHOUT_PHOTONS = {"path", "direct"}

@@ -14,9 +14,9 @@ import numpy as np
 import OpenEXR
 from tqdm import tqdm
 
-from farm_parts import digest
+from farming.parts import digest
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 VKPM = ROOT / "build/release/vkpm"
 LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
 

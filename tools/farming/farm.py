@@ -19,9 +19,9 @@ from distributed import Client, Future, KilledWorker, LocalCluster, as_completed
 from distributed.comm import get_address_host_port
 from tqdm import tqdm
 
-from farm_parts import Parts, Scene, Span, chunk_size, digest, missing_spans
+from farming.parts import Parts, Scene, Span, chunk_size, digest, missing_spans
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 VKPM = ROOT / "build/release/vkpm"
 OF_ONE_RUN = {"--time", "--target-error", "--pass-range", "--stats", "--log", "--report", "--reference", "--resume", "--no-resume", "--half", "--checkpoint"}
 

@@ -11,7 +11,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
-from study_curves import Curve  # noqa: E402
+from studies.curves import Curve  # noqa: E402
 
 # Of Okabe and Ito (2008), told apart by colour-blind people, and legible on light and dark ground.
 COLOURS = ("#e69f00", "#0088d1", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#8c8c8c")

@@ -11,10 +11,10 @@ import matplotlib.image
 import numpy as np
 from matplotlib import pyplot
 
-from study_cells import Cell, Study, Truth, Variant
-from study_curves import LEFT_OUT, TARGETS, TRUST, Curve, layer_curve, mean_curve, read_rows, without_reference
-from study_plot import COLOURS, Axis, Line, inline, plot_axes, plot_layers, plot_one, style
-from study_vkpm import LIGHT, flip
+from studies.cells import Cell, Study, Truth, Variant
+from studies.curves import LEFT_OUT, TARGETS, TRUST, Curve, layer_curve, mean_curve, read_rows, without_reference
+from studies.plot import COLOURS, Axis, Line, inline, plot_axes, plot_layers, plot_one, style
+from studies.vkpm import LIGHT, flip
 
 escape = html.escape
 

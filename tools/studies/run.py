@@ -7,10 +7,10 @@ import shutil
 import numpy as np
 from tqdm import tqdm
 
-from study_cells import Cell, Study
-from study_curves import Row, layer_curve, read_rows, write_rows
-from study_page import write_page
-from study_vkpm import LIGHT, Failure, flip, relative_square, say
+from studies.cells import Cell, Study
+from studies.curves import Row, layer_curve, read_rows, write_rows
+from studies.page import write_page
+from studies.vkpm import LIGHT, Failure, flip, relative_square, say
 
 
 def render(cell: Cell) -> None:
