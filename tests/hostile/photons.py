@@ -1,6 +1,6 @@
 """Hostile cases of photons and gathers."""
 
-from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, off, percent, plus, rectangle, same_means,
+from lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, off, percent, plus, rectangle, same_means,
                           sphere, without)
 
 

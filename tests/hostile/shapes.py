@@ -2,7 +2,7 @@
 
 import math
 
-from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, plus, rectangle, same_means, same_pixels, sphere,
+from lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, plus, rectangle, same_means, same_pixels, sphere,
                           without)
 
 

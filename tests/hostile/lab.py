@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
 HANG = 300  # seconds after which a render hangs
 

@@ -1,6 +1,6 @@
 """Hostile cases of lights and materials."""
 
-from extremes_lab import (BOX, LIGHT, Lab, Scene, Verdict, against_path, brighter, case, changed, off, percent, plus, rectangle, same_bits,
+from lab import (BOX, LIGHT, Lab, Scene, Verdict, against_path, brighter, case, changed, off, percent, plus, rectangle, same_bits,
                           same_means, sphere, without)
 
 LAMP = "light"

@@ -17,14 +17,14 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
-import extremes_places  # isort: skip: the order of the table
-import extremes_light
-import extremes_photons
-import extremes_shapes
-from extremes_lab import CASES, Case, Lab, Refused, Verdict
+import places  # isort: skip: the order of the table
+import light
+import photons
+import shapes
+from lab import CASES, Case, Lab, Refused, Verdict
 from studies.page import STYLE, developed, picture, table
 
-MODULES = (extremes_places, extremes_light, extremes_shapes, extremes_photons)  # each registers its cases
+MODULES = (places, light, shapes, photons)  # each registers its cases
 TIMES = 3  # as long as the tame sibling, at most
 NOISE = 0.15  # seconds that a render may take more for no reason: other work on the machine, kernels compiled anew
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from extremes_lab import (BOX, Lab, Render, Verdict, against_path, case, changed, moved, percent, plus, rectangle, same_bits, same_means, scaled)
+from lab import (BOX, Lab, Render, Verdict, against_path, case, changed, moved, percent, plus, rectangle, same_bits, same_means, scaled)
 
 GLASS_BALL = [0.45, -0.65, 0.25]
 
