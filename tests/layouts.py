@@ -51,12 +51,14 @@ def main() -> None:
     for kernel in kernels:
         offsets, strides = layouts(kernel)
         # Blocks that stand for pointers have one member, "at"; those of push constants hold a struct "args".
-        asserts |= {f"static_assert(offsetof(vkpm::{kind}, {member}) == {offset});" for (kind, member), offset in offsets.items()
+        asserts |= {f"static_assert(offsetof(vkpm::{kind}, {member}) == {offset});"
+                    for (kind, member), offset in offsets.items()
                     if member not in ("at", "args")}
         asserts |= {f"static_assert(sizeof(vkpm::{kind}) == {stride});" for kind, stride in strides.items()}
     if len(asserts) < 100:
         sys.exit(f"layouts.py: found {len(asserts)} layouts; kernels were compiled without names")
-    output.write_text("// Made by layouts.py.\n#include \"shared.h\"\n#include <cstddef>\n" + "\n".join(sorted(asserts)) + "\n")
+    lines = ["// Made by layouts.py.", '#include "shared.h"', "#include <cstddef>", *sorted(asserts)]
+    output.write_text("\n".join(lines) + "\n")
 
 
 main()

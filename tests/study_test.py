@@ -14,6 +14,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
+
 from studies.cells import matrix
 from studies.curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows
 from studies.page import time_cell

@@ -119,7 +119,8 @@ class Lab:
                    "--stats", str(file.with_suffix(".json")), *words]
         render = Render(file, command)
         try:
-            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False, env=self.environment)
+            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False,
+                                     env=self.environment)
         except subprocess.TimeoutExpired:
             render.problems = [f"hangs: no end after {HANG} s"]
             return render

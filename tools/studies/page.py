@@ -4,7 +4,7 @@ import base64
 import html
 import io
 import json
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 
 import matplotlib.image
@@ -247,7 +247,7 @@ def circumstances(study: Study) -> str:
              "device and driver": "; ".join(study.device["devices"]),
              "program": f"{study.vkpm.version}, commit {commits}",
              "rendered by": ", ".join(sorted({cell.facts()["device"] for cell in study.cells})),
-             "page written": datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")}
+             "page written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")}
     rows = "".join(f"<tr><td>{name}</td><td>{escape(text)}</td></tr>" for name, text in facts.items())
     return f'<table class="facts">{rows}</table>'
 
