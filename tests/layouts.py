@@ -9,7 +9,6 @@ import struct
 import sys
 from pathlib import Path
 
-SHADERS = Path(__file__).parent.parent / "shaders"
 OP_NAME, OP_MEMBER_NAME, OP_TYPE_RUNTIME_ARRAY, OP_TYPE_STRUCT, OP_DECORATE, OP_MEMBER_DECORATE = 5, 6, 29, 30, 71, 72
 ARRAY_STRIDE, OFFSET = 6, 35
 
@@ -52,13 +51,17 @@ def main() -> None:
     for kernel in kernels:
         offsets, strides = layouts(kernel)
         # Blocks that stand for pointers have one member, "at"; those of push constants hold a struct "args".
-        asserts |= {f"static_assert(offsetof(vkpm::{kind}, {member}) == {offset});" for (kind, member), offset in offsets.items()
+        asserts |= {f"static_assert(offsetof(vkpm::{kind}, {member}) == {offset});"
+                    for (kind, member), offset in offsets.items()
                     if member not in ("at", "args")}
         asserts |= {f"static_assert(sizeof(vkpm::{kind}) == {stride});" for kind, stride in strides.items()}
     if len(asserts) < 100:
         sys.exit(f"layouts.py: found {len(asserts)} layouts; kernels were compiled without names")
-    includes = "".join(f"#include \"{header.name}\"\n" for header in sorted(SHADERS.glob("shared_*.h")))
-    output.write_text("// Made by layouts.py.\n" + includes + "#include <cstddef>\n" + "\n".join(sorted(asserts)) + "\n")
+    headers = sorted((Path(__file__).parent.parent / "shaders").glob("shared_*.h"))
+    lines = ["// Made by layouts.py.", *(f'#include "{header.name}"' for header in headers), "#include <cstddef>", *sorted(asserts)]
+    output.write_text("
+".join(lines) + "
+")
 
 
 main()

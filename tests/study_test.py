@@ -15,15 +15,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tools"))
-from study_curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows  # noqa: E402
-from study_page import time_cell  # noqa: E402
-from study_reference import Part, Reference, refine  # noqa: E402
-from study_run import matrix  # noqa: E402
-from study_vkpm import LIGHT, Vkpm, read_image  # noqa: E402
+from studies.cells import matrix
+from studies.curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows
+from studies.page import time_cell
+from studies.reference import Part, Reference, refine
+from studies.vkpm import LIGHT, Vkpm, read_image
 
-STUDY = [sys.executable, str(ROOT / "tools/study.py")]
+ROOT = Path(__file__).resolve().parent.parent
+STUDY = [sys.executable, "-P", "-m", "studies"]
 SCENE = ROOT / "scenes/box.json"
 
 # Stands in for a vkpm with --report, and for an environment that fails at the first render of each size.
@@ -182,7 +181,7 @@ def test_parts(folder: Path) -> None:
     folder.mkdir()
     parts = (Part(("emission", "direct", "specular", "indirect"), "path"), Part(("caustic",), "path"))
     args = argparse.Namespace(output=folder, size="32x32", error=0.15, time=None, small=False, quiet=True)
-    with patch("study_reference.PARTS", parts):
+    with patch("studies.reference.PARTS", parts):
         reference = Reference(Vkpm(sys.argv[1]), SCENE, args, [])
         refine(reference)
     image, own = read_image(reference.file).layers, [part.image.layers for part in reference.parts]

@@ -5,7 +5,8 @@ import time
 from collections.abc import Callable
 from typing import TypeVar
 
-PATIENCE = 600 if os.environ.get("VKPM_VALIDATION") else 120  # seconds; with the validation layer kernels take long to compile
+# Seconds; with the validation layer kernels take long to compile.
+PATIENCE = 600 if os.environ.get("VKPM_VALIDATION") else 120
 Found = TypeVar("Found")
 
 

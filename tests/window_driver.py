@@ -45,7 +45,8 @@ class Window:
         self.environment = environment
         self.output, self.log = folder / "window.exr", folder / "window.jsonl"
         self.log.unlink(missing_ok=True)
-        command = [VKPM, "view", "--scene", str(scene), "-o", str(self.output), "--log", str(self.log), "--quiet", *options]
+        command = [VKPM, "view", "--scene", str(scene), "-o", str(self.output), "--log", str(self.log), "--quiet",
+                   *options]
         self.process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True)
         self.size = self.await_event("window")["size"]
         self.panel = self.events("window")[0]["panel"]
@@ -56,7 +57,8 @@ class Window:
     def xdotool(self, *words: object, check: bool = True) -> str:
         """Runs xdotool on the display."""
         command = ["xdotool", *[str(word) for word in words]]
-        return subprocess.run(command, env=self.environment, check=check, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=PATIENCE).stdout
+        return subprocess.run(command, env=self.environment, check=check, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True, timeout=PATIENCE).stdout
 
     def events(self, name: str) -> list[dict[str, Any]]:
         """What the log has of an event."""
@@ -93,7 +95,8 @@ class Window:
         """Presses keys, one after another, in this window."""
         self.xdotool("windowfocus", "--sync", self.id, "key", *keys)
 
-    def drag(self, begin: tuple[int, int], steps: int, step: tuple[int, int], button: int = 1, pause: float = 0.02) -> None:
+    def drag(self, begin: tuple[int, int], steps: int, step: tuple[int, int], button: int = 1,
+             pause: float = 0.02) -> None:
         """Drags with a button in small steps."""
         self.xdotool("mousemove", *begin, "mousedown", button)
         for _ in range(steps):
@@ -117,7 +120,8 @@ class Window:
             eventually("a picture on the display", lambda: off() <= tolerance, 60)
         except AssertionError as error:
             Image.fromarray(self.screen().astype(np.uint8)).save(tempfile.gettempdir() + "/vkpm-window-test.png")
-            raise AssertionError(f"{error}: off by {off()}, the display is in {tempfile.gettempdir()}/vkpm-window-test.png") from None
+            where = f"the display is in {tempfile.gettempdir()}/vkpm-window-test.png"
+            raise AssertionError(f"{error}: off by {off()}, {where}") from None
 
     def place(self, film: tuple[int, int]) -> tuple[int, int]:
         """The corner of a film that fits beside the panel as it is."""
@@ -134,7 +138,8 @@ class Window:
         command = ["xclip", "-out", "-selection", "clipboard"]
 
         def look() -> str:
-            found = subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=PATIENCE).stdout
+            found = subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                   text=True, timeout=PATIENCE, check=False).stdout
             return found if found.startswith('{"origin"') else ""
 
         return eventually("the camera", look)

@@ -12,7 +12,7 @@ import numpy as np
 import OpenEXR
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
+from matplotlib import pyplot
 
 ROOT = Path(__file__).resolve().parent.parent
 VKPM = ROOT / "build/release/vkpm"
@@ -41,12 +41,15 @@ def parse_arguments() -> argparse.Namespace:
     """Reads the command line."""
     parser = argparse.ArgumentParser(prog="tools/convergence", description=__doc__)
     parser.add_argument("--scene", type=Path, default=ROOT / "scenes/box.json", help="default: the box")
-    parser.add_argument("--reference", type=Path, default=ROOT / "tests/data/box_reference.exr", help="an EXR file of it with the same layers")
+    parser.add_argument("--reference", type=Path, default=ROOT / "tests/data/box_reference.exr",
+                        help="an EXR file of it with the same layers")
     parser.add_argument("--passes", type=int, default=128, help="most passes (default 128)")
     parser.add_argument("--seeds", type=int, default=4, help="renders to average over (default 4)")
     parser.add_argument("--photons", default="20000", help="emitted per pass into each map (default 20000)")
-    parser.add_argument("--fixed-radius", default="0.08", help="of the caustic discs that do not shrink, world units (default 0.08)")
-    parser.add_argument("-o", "--output", type=Path, default=Path("convergence.png"), help="the plot (default convergence.png)")
+    parser.add_argument("--fixed-radius", default="0.08",
+                        help="of the caustic discs that do not shrink, world units (default 0.08)")
+    parser.add_argument("-o", "--output", type=Path, default=Path("convergence.png"),
+                        help="the plot (default convergence.png)")
     return parser.parse_args()
 
 
@@ -59,16 +62,19 @@ def read_layers(path: Path) -> dict[str, np.ndarray]:
 
 def render(scene: Path, options: list[str], passes: int, output: Path) -> dict[str, np.ndarray]:
     """Goes on with a render until it has so many passes."""
-    command = [str(VKPM), "--scene", str(scene), "--quiet", "--resume", "--passes", str(passes), "-o", str(output), *options]
+    command = [str(VKPM), "--scene", str(scene), "--quiet", "--resume", "--passes", str(passes), "-o", str(output),
+               *options]
     if code := subprocess.run(command, check=False).returncode:
         sys.exit(code)
     return read_layers(output)
 
 
-def measure(curves: list[Curve], arguments: argparse.Namespace, reference: dict[str, np.ndarray], seed: int, folder: Path) -> None:
+def measure(curves: list[Curve], arguments: argparse.Namespace, reference: dict[str, np.ndarray], seed: int,
+            folder: Path) -> None:
     """Adds a seed to curves whose options are the same, after 1, 2, 4 ... passes."""
     height, width = reference["direct"].shape[:2]
-    options = ["--size", f"{width}x{height}", "--photons", arguments.photons, "--caustic-photons", arguments.photons, "--seed", str(seed), *curves[0].options]
+    options = ["--size", f"{width}x{height}", "--photons", arguments.photons, "--caustic-photons", arguments.photons,
+               "--seed", str(seed), *curves[0].options]
     for curve in curves:
         curve.passes = []
         curve.squares.append([])
@@ -85,7 +91,8 @@ def plot(curves: list[Curve], output: Path) -> None:
     """Draws the curves on logarithmic axes, with the slopes that theory predicts."""
     figure, axes = pyplot.subplots(figsize=(7, 4.5), layout="constrained")
     for curve in curves:
-        axes.loglog(curve.passes, curve.errors(), marker="o", markersize=3, label=f"{curve.label}: slope {curve.slope():+.2f}")
+        axes.loglog(curve.passes, curve.errors(), marker="o", markersize=3,
+                    label=f"{curve.label}: slope {curve.slope():+.2f}")
     for slope, style, label in ((-1 / 2, ":", "-1/2"), (-1 / 3, "--", "-1/3")):
         x = np.array(curves[0].passes, float)
         axes.loglog(x, 0.02 * x**slope, "k" + style, linewidth=0.8, label=label)
@@ -99,7 +106,8 @@ def main() -> None:
     """Measures and plots."""
     arguments = parse_arguments()
     reference = read_layers(arguments.reference)
-    shrinking = [Curve("direct", "direct, path traced", []), Curve("indirect", "indirect, final gather", []), Curve("caustic", "caustic, shrinking discs", [])]
+    shrinking = [Curve("direct", "direct, path traced", []), Curve("indirect", "indirect, final gather", []),
+                 Curve("caustic", "caustic, shrinking discs", [])]
     fixed = [Curve("caustic", "caustic, fixed discs", ["--alpha", "1", "--caustic-radius", arguments.fixed_radius])]
     for curves in (shrinking, fixed):
         for seed in range(arguments.seeds):

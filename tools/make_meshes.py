@@ -89,21 +89,23 @@ def grid(grid_point, columns, rows, closed):
         return (i % (columns + extra)) * stride + j % stride + 1
 
     faces = [
-        (index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j)) for i in range(columns) for j in range(rows)
+        (index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j))
+        for i in range(columns)
+        for j in range(rows)
     ]
     return points, faces
 
 
 def difference(a, b):
-    return tuple(x - y for x, y in zip(a, b))
+    return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
 def combine(a, b, weight_a, weight_b):
-    return tuple(weight_a * x + weight_b * y for x, y in zip(a, b))
+    return tuple(weight_a * x + weight_b * y for x, y in zip(a, b, strict=True))
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def cross(a, b):

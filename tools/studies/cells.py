@@ -1,11 +1,10 @@
-"""A study: the cells of its matrix, each rendered once, and what they leave in their folders."""
+"""The matrix of a study: variants of scenes, integrators and settings, and its cells, one for each variant and seed."""
 
 import argparse
 import json
 import os
 import platform
 import re
-import shutil
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -13,14 +12,9 @@ from functools import cached_property
 from itertools import product
 from pathlib import Path
 
-import numpy as np
-from tqdm import tqdm
-
-from farm_parts import digest
-from study_curves import Row, layer_curve, read_rows, write_rows
-from study_page import write_page
-from study_reference import reference_file, scene_digest
-from study_vkpm import LIGHT, ROOT, Failure, Image, Vkpm, flip, read_image, relative_square, say
+from farming.parts import digest
+from studies.reference import reference_file, scene_digest
+from studies.vkpm import LIGHT, ROOT, Failure, Image, Vkpm, read_image, relative_square
 
 ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel", "gather-rays"}
 WITHOUT_PHOTONS = {"path", "direct"}
@@ -115,7 +109,7 @@ def chosen_device(devices: list[dict], options: list[str]) -> dict:
     return {"devices": [f"{device['name']}, {device['driver']}" for device in devices]}
 
 
-# What is rendered.
+# The cells.
 
 
 class Cell:
@@ -155,70 +149,6 @@ class Cell:
         with tempfile.TemporaryDirectory(prefix="vkpm-study-") as folder:
             self.study.vkpm.run([*self.options("8x8"), "--passes", "1", "-o", str(Path(folder, "check.exr"))])
 
-    def render(self) -> None:
-        """Renders from the beginning; a cell that was interrupted has used its time unevenly."""
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-        commands = measure_by_vkpm(self) if self.study.vkpm.has_report else measure_by_steps(self)
-        image = self.image()
-        facts = {"name": self.name, "identity": self.identity(), "commands": commands, "commit": self.study.commit,
-                 "version": self.study.vkpm.version, "device": image.attributes["vkpm/device"],
-                 "passes": int(image.attributes["vkpm/passes"]),
-                 "flip": flip(image.layers["beauty"], self.truth.image.layers["beauty"])[1]}
-        new = self.folder / "cell.new"
-        new.write_text(json.dumps(facts, indent=2) + "\n")
-        new.rename(self.folder / "cell.json")
-
-
-def curve(cell: Cell) -> list[Row]:
-    """Error against time of a cell, which is rendered if it is not finished."""
-    if cell.facts() is None:
-        cell.render()
-    return read_rows(cell.folder / "error.csv")
-
-
-def measure_by_vkpm(cell: Cell) -> list[str]:
-    """Has vkpm compare while it renders; returns the command lines."""
-    words = ["--time", f"{cell.study.args.time:g}", "--reference", str(cell.truth.file), "--report", str(cell.folder),
-             "--stats", str(cell.folder / "stats.json"), "-o", str(cell.folder / "final.exr")]
-    return [cell.study.vkpm.run([*cell.options(cell.study.args.size), *words])]
-
-
-def measure_by_steps(cell: Cell) -> list[str]:
-    """Stops after 1, 2, 4 ... passes until the time is over, and compares; returns the command lines."""
-    output, stats, rows, commands = cell.folder / "final.exr", cell.folder / "stats.json", [], []
-    passes, seconds, rays, photons = 0, 0.0, 0, 0
-    left = cell.study.args.time
-    while left > 0:
-        wanted = max(1, 2 * passes)
-        words = ["--passes", str(wanted), "--time", f"{left:.3f}", "--resume", "--stats", str(stats), "-o", str(output)]
-        commands.append(cell.study.vkpm.run([*cell.options(cell.study.args.size), *words]))
-        facts = json.loads(stats.read_text())
-        passes = facts["passes"]
-        seconds += facts["seconds"]["render"]  # of this run alone, as are the others
-        rays += facts["rays"]
-        photons += sum(chart["emitted"] for chart in facts["photons"].values())
-        rows += compare(cell, passes, seconds, rays, photons)
-        left = cell.study.args.time - seconds if passes == wanted else 0
-        if 0 < left < 0.5 * seconds / passes:  # less than half a pass, as vkpm rounds
-            left = 0
-    write_rows(cell.folder / "error.csv", rows)
-    return commands
-
-
-def compare(cell: Cell, passes: int, seconds: float, rays: int, photons: int) -> list[Row]:
-    """Rows of what a cell has rendered by now."""
-    image, truth, rows = cell.image().layers, cell.truth.image.layers, []
-    for layer in ("beauty", *LIGHT):
-        apart = image[layer] - truth[layer]
-        row = Row(passes, seconds, rays, photons, layer, rmse=float(np.sqrt(np.mean(apart**2))),
-                  relmse=relative_square(apart, truth[layer]), mean_error=float(np.mean(apart)))
-        if layer == "beauty":
-            row.flip = flip(image[layer], truth[layer])[1]
-            row.noise = float(np.sqrt(np.mean(image["noise"] ** 2))) if "noise" in image else row.noise
-        rows.append(row)
-    return rows
-
 
 class Study:
     """The matrix with what all cells share."""
@@ -232,27 +162,3 @@ class Study:
         self.variants = matrix(args)
         # All cells get their first seed before any gets its second.
         self.cells = [Cell(self, variant, seed) for seed in range(args.repeat) for variant in self.variants]
-
-    def render(self) -> None:
-        """Renders the cells that are not finished."""
-        todo = [cell for cell in self.cells if cell.facts() is None]
-        for cell in todo:
-            cell.check()
-        done = len(self.cells) - len(todo)
-        with tqdm(total=len(self.cells), initial=done, unit="cell", disable=self.args.quiet or None) as progress:
-            for cell in todo:
-                progress.set_description_str(cell.name)
-                beauty = layer_curve(curve(cell), "beauty")
-                if len(beauty.errors):
-                    say(f"{cell.name}: relMSE {beauty.errors[-1]:.3g} after {beauty.seconds[-1]:.3g} s")
-                progress.update()
-
-
-def run_study(args: argparse.Namespace, options: list[str]) -> int:
-    """Renders and writes the page, and returns an exit code."""
-    if len({scene.stem for scene in args.scenes}) < len(args.scenes):
-        raise Failure("tools/study: --scenes: found two of one file name; allowed: different file names", 2)
-    study = Study(args, options)
-    study.render()
-    say(f"tools/study: wrote {write_page(study)}")
-    return 0

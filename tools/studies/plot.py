@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import matplotlib
 
 matplotlib.use("svg")
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from study_curves import Curve  # noqa: E402
+from studies.curves import Curve
 
 # Of Okabe and Ito (2008), told apart by colour-blind people, and legible on light and dark ground.
 COLOURS = ("#e69f00", "#0088d1", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#8c8c8c")
@@ -83,8 +83,8 @@ def plot_axes(axes_studied: list[Axis], scenes: list[str], layers: list[str], se
     for row, layer in zip(grid, layers, strict=True):
         for axes, axis in zip(row, axes_studied, strict=True):
             for index, scene in enumerate(scenes):
-                axes.plot(range(len(axis.values)), axis.errors[scene, layer], color=COLOURS[index], marker=MARKERS[index],
-                          markersize=4, linewidth=1.6, label=scene)
+                axes.plot(range(len(axis.values)), axis.errors[scene, layer], color=COLOURS[index],
+                          marker=MARKERS[index], markersize=4, linewidth=1.6, label=scene)
             axes.set_yscale("log")
             axes.set_xticks(range(len(axis.values)), axis.values, rotation=30, ha="right")
             axes.set_title(axis.name, loc="left")

@@ -1,7 +1,8 @@
 """Hostile scenes: renders each, checks what must hold, and writes a table and one HTML page with pictures.
 
-What must hold for all: an end within minutes and without an error, no value in any layer that is not finite, no photon lost,
-photons that add up, and no more than three times the time of a tame sibling. Each case has a check of its own besides.
+What must hold for all: an end within minutes and without an error, no value in any layer that is not finite, no photon
+lost, photons that add up, and no more than three times the time of a tame sibling. Each case has a check of its own
+besides.
 """
 
 import argparse
@@ -17,28 +18,33 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
-import extremes_places  # isort: skip: the order of the table
-import extremes_light
-import extremes_photons
-import extremes_shapes
-from extremes_lab import CASES, Case, Lab, Refused, Verdict
-from study_page import STYLE, developed, picture, table
+import places  # isort: skip: the order of the table
+import light
+import photons
+import shapes
+from lab import CASES, Case, Lab, Refused, Verdict
+from studies.page import STYLE, developed, picture, table
 
-MODULES = (extremes_places, extremes_light, extremes_shapes, extremes_photons)  # each registers its cases
+MODULES = (places, light, shapes, photons)  # each registers its cases
 TIMES = 3  # as long as the tame sibling, at most
 NOISE = 0.15  # seconds that a render may take more for no reason: other work on the machine, kernels compiled anew
 
 
 def arguments() -> argparse.Namespace:
     """The command line."""
-    parser = argparse.ArgumentParser(prog="tools/extremes", description="Renders hostile scenes and says what came of them.")
+    parser = argparse.ArgumentParser(prog="tools/extremes",
+                                     description="Renders hostile scenes and says what came of them.")
     parser.add_argument("--vkpm", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="keeps the scenes and renders, and writes index.html and table.md")
+    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER",
+                        help="keeps the scenes and renders, and writes index.html and table.md")
     parser.add_argument("--only", default="", metavar="WORDS", help="cases whose group and name have these words")
     parser.add_argument("--heavy", action="store_true", help="also those that take gigabytes or minutes")
-    parser.add_argument("--driver", choices=("lanes4", "swiftshader"), help="on lavapipe with four lanes in place of eight, or on SwiftShader")
-    parser.add_argument("--draw", type=int, metavar="N", help="N of these cases, drawn by the number VKPM_DRAW_SEED (default 1)")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="renders N cases at a time; slow ones are timed again alone (default 1)")
+    parser.add_argument("--driver", choices=("lanes4", "swiftshader"),
+                        help="on lavapipe with four lanes in place of eight, or on SwiftShader")
+    parser.add_argument("--draw", type=int, metavar="N",
+                        help="N of these cases, drawn by the number VKPM_DRAW_SEED (default 1)")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N",
+                        help="renders N cases at a time; slow ones are timed again alone (default 1)")
     return parser.parse_args()
 
 
@@ -110,7 +116,8 @@ def page(rows: list[tuple[list[str], str]], device: str) -> str:
     """One HTML file."""
     body = [[html.escape(words[0]), image, *map(html.escape, words[1:])] for words, image in rows]
     style = STYLE + "th, td { white-space: normal; text-align: left; }"
-    return (f'<!doctype html><meta charset="utf-8"><title>vkpm: extremes</title><style>{style}</style><h1>Stress tests</h1>'
+    return (f'<!doctype html><meta charset="utf-8"><title>vkpm: extremes</title><style>{style}</style>'
+            "<h1>Stress tests</h1>"
             f"<p>{html.escape(device)}. Time is that of rendering, in units of a tame sibling's.</p>"
             + table(["", "picture", *HEAD[1:]], body))
 
@@ -144,8 +151,9 @@ def main() -> int:
         words = row(case, verdict, wrong)
         rows.append((words, thumbnail(verdict)))
         failed += bool(wrong)
-        print(f"{'FAILS' if wrong else 'holds'}  {words[0]}: {words[1]}\n       expected {words[2]}\n       measured {words[3]}; "
-              f"time {words[4]}" + "".join(f"\n       {line}" for line in wrong), flush=True)
+        print(f"{'FAILS' if wrong else 'holds'}  {words[0]}: {words[1]}\n       expected {words[2]}\n"
+              f"       measured {words[3]}; time {words[4]}"
+              + "".join(f"\n       {line}" for line in wrong), flush=True)
     device = next((render.stats["device"] for render in lab.known.values() if not render.code), "no device")
     print(f"{len(rows)} cases on {device}; {failed} fail")
     if args.output:

@@ -19,11 +19,12 @@ from distributed import Client, Future, KilledWorker, LocalCluster, as_completed
 from distributed.comm import get_address_host_port
 from tqdm import tqdm
 
-from farm_parts import Parts, Scene, Span, chunk_size, digest, missing_spans
+from farming.parts import Parts, Scene, Span, chunk_size, digest, missing_spans
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 VKPM = ROOT / "build/release/vkpm"
-OF_ONE_RUN = {"--time", "--target-error", "--pass-range", "--stats", "--log", "--report", "--reference", "--resume", "--no-resume", "--half", "--checkpoint"}
+OF_ONE_RUN = {"--time", "--target-error", "--pass-range", "--stats", "--log", "--report", "--reference", "--resume",
+              "--no-resume", "--half", "--checkpoint"}
 
 
 class Failure(Exception):
@@ -221,7 +222,7 @@ def render_parts(client: Client, args: argparse.Namespace, options: list[str], s
 
 def farm(args: argparse.Namespace, options: list[str]) -> int:
     """Renders and merges, and returns an exit code."""
-    if subprocess.run([ROOT / "tools/build", "release", "vkpm"]).returncode:
+    if subprocess.run([ROOT / "tools/build", "release", "vkpm"], check=False).returncode:
         return 1
     scene = Scene(args.scene)
     args.passes = args.passes or scene.passes
@@ -250,7 +251,8 @@ def main() -> int:
             say(str(failure))
         return failure.code
     except OSError as error:
-        say(f"tools/farm: {error.filename or args.output}: {error.strerror or error}; finished parts are kept, and the same command goes on with them")
+        say(f"tools/farm: {error.filename or args.output}: {error.strerror or error}; finished parts are "
+            "kept, and the same command goes on with them")
         return 1
     except KeyboardInterrupt:
         say("tools/farm: interrupted; finished parts are kept, and the same command goes on with them")

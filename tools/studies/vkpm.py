@@ -14,9 +14,9 @@ import numpy as np
 import OpenEXR
 from tqdm import tqdm
 
-from farm_parts import digest
+from farming.parts import digest
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 VKPM = ROOT / "build/release/vkpm"
 LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
 
@@ -115,7 +115,8 @@ def read_image(path: Path) -> Image:
     except RuntimeError as error:
         raise Failure(f"tools/study: {path}: found no whole EXR file ({error}); remove it and go on", 2) from error
     channels = file.channels()
-    names = [name.removesuffix(".R") for name in channels if name.endswith(".R") and not name.startswith(("state", "residue"))]
+    names = [name.removesuffix(".R") for name in channels
+             if name.endswith(".R") and not name.startswith(("state", "residue"))]
     prefixes = {"beauty": ""} | {name: name + "." for name in names}
     layers = {layer: np.stack([channels[prefix + c].pixels for c in "RGB"], -1).astype(np.float64)
               for layer, prefix in prefixes.items()}

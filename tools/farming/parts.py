@@ -73,9 +73,10 @@ class Parts:
     def merge(self, vkpm: Path, output: Path) -> int:
         """Merges all parts, removes them, and returns vkpm's exit code."""
         names = [f"{begin}-{end}.exr" for begin, end in self.spans()]
-        code = subprocess.run([vkpm, "merge", "whole.exr", *names], cwd=self.folder).returncode
+        code = subprocess.run([vkpm, "merge", "whole.exr", *names], cwd=self.folder, check=False).returncode
         if code == 0:
-            for whole, target in ((self.folder / "whole.exr", output), (self.folder / "whole.png", output.with_suffix(".png"))):
+            for whole, target in ((self.folder / "whole.exr", output),
+                                  (self.folder / "whole.png", output.with_suffix(".png"))):
                 whole.replace(target.resolve())
             shutil.rmtree(self.folder)
             if not any(self.folder.parent.iterdir()):

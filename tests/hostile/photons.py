@@ -1,7 +1,21 @@
 """Hostile cases of photons and gathers."""
 
-from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, off, percent, plus, rectangle, same_means,
-                          sphere, without)
+from lab import (
+    BOX,
+    Lab,
+    Scene,
+    Verdict,
+    against_path,
+    case,
+    changed,
+    off,
+    percent,
+    plus,
+    rectangle,
+    same_means,
+    sphere,
+    without,
+)
 
 
 def no_photons(lab: Lab) -> Verdict:
@@ -17,10 +31,12 @@ case("photons", "0 photons", "no indirect light, no caustics; emission and direc
 
 def few(count: int) -> None:
     """Fewer than a disc holds."""
-    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass", "the mean of many within 25 %: the noise of 128 passes")
+    @case("photons", f"{count} photon{'s' if count > 1 else ''} a pass",
+          "the mean of many within 25 %: the noise of 128 passes")
     def judge(lab: Lab) -> Verdict:
         def discs(photons: int) -> tuple[str, ...]:
-            return ("--size", "8x8", "--passes", "128", "--radius", "0.5", "--caustic-radius", "0.5", "--alpha", "1", "--gather-rays", "4",
+            return ("--size", "8x8", "--passes", "128", "--radius", "0.5", "--caustic-radius", "0.5", "--alpha", "1",
+                    "--gather-rays", "4",
                     "--photons", str(photons), "--caustic-photons", str(photons))
         tame, render = lab.render(BOX, *discs(64)), lab.render(BOX, *discs(count))
         difference = off(render.mean(), tame.mean())
@@ -54,7 +70,8 @@ for tiny in ("0", "1e-20", "1e-45"):
 
 
 @case("photons", "both radii larger than the scene: all photons in one slot of the hash",
-      "all gather rays count as near, and are path traced: mean and time of the path tracer, within 2 %; caustics spread over the disc")
+      "all gather rays count as near, and are path traced: mean and time of the path tracer, within 2 %; "
+      "caustics spread over the disc")
 def wide_radius(lab: Lab) -> Verdict:
     balls = lab.render(BOX, "--radius", "1000", "--caustic-radius", "1000")
     plain = without(BOX, "mirror ball", "glass ball")
@@ -62,7 +79,8 @@ def wide_radius(lab: Lab) -> Verdict:
     render = lab.render(plain, "--passes", "16", "--radius", "1000")
     difference, caustic = off(render.mean(), tame.mean()), balls.mean("caustic")
     render.problems += balls.problems
-    return Verdict(render, tame, f"{percent(difference)}, caustic {caustic:.1e}", abs(difference) < 0.02 and 0 < caustic < 1e-5)
+    return Verdict(render, tame, f"{percent(difference)}, caustic {caustic:.1e}",
+                   abs(difference) < 0.02 and 0 < caustic < 1e-5)
 
 
 def lens(caustic_photons: str, field_of_view: float) -> tuple[Scene, tuple[str, ...]]:
@@ -70,22 +88,26 @@ def lens(caustic_photons: str, field_of_view: float) -> tuple[Scene, tuple[str, 
     ball = sphere([0, -0.5, 0], 1 / 3, material="glass")
     lamp = rectangle([-0.005, 20, -0.005], [0.01, 0, 0], [0, 0, 0.01], emission=[1e6, 1e6, 1e6])
     floor = rectangle([-2, -1, 2], [4, 0, 0], [0, 0, -4], material="white")
-    scene = {"camera": {"origin": [0, 0.3, 3], "target": [0, -1, 0], "fieldOfView": field_of_view}, "film": {"size": [64, 64]},
+    scene = {"camera": {"origin": [0, 0.3, 3], "target": [0, -1, 0], "fieldOfView": field_of_view},
+             "film": {"size": [64, 64]},
              "materials": BOX["materials"], "shapes": [floor, ball, lamp]}
     return scene, ("--caustic-photons", caustic_photons, "--passes", "8")
 
 
-@case("photons", "a ball lens brings 1,000,000 photons a pass into one spot", "the caustic's mean by light tracing within 3 %")
+@case("photons", "a ball lens brings 1,000,000 photons a pass into one spot",
+      "the caustic's mean by light tracing within 3 %")
 def focus(lab: Lab) -> Verdict:
     scene, options = lens("1000000", 1)
     render = lab.render(scene, *options)
     truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
-    spread = changed(scene, shapes=[scene["shapes"][0], sphere([0, 0.6, 0], 1 / 3, material="glass"), scene["shapes"][2]])
+    spread = changed(scene,
+                     shapes=[scene["shapes"][0], sphere([0, 0.6, 0], 1 / 3, material="glass"), scene["shapes"][2]])
     difference = off(render.mean("caustic"), truth.mean("caustic"))
     return Verdict(render, lab.render(spread, *options), percent(difference), abs(difference) <= 0.03)
 
 
-@case("photons", "the same with a radius by hand that holds all of them", "the flux of the caustic by light tracing within 5 %")
+@case("photons", "the same with a radius by hand that holds all of them",
+      "the flux of the caustic by light tracing within 5 %")
 def focus_by_hand(lab: Lab) -> Verdict:
     scene, options = lens("1000000", 3)
     render = lab.render(scene, *options, "--caustic-radius", "0.05")
@@ -97,7 +119,8 @@ def focus_by_hand(lab: Lab) -> Verdict:
 @case("photons", "a caustic seen only through glass, by way of a mirror", "mean of the path tracer within 3 %")
 def hidden_caustic(lab: Lab) -> Verdict:
     # A pane of glass before the camera; the floor below the glass ball is behind a screen, and seen in a mirror.
-    pane = [rectangle([-1, -1, 1.5], [2, 0, 0], [0, 2, 0], material="glass"), rectangle([-1, -1, 1.45], [0, 2, 0], [2, 0, 0], material="glass")]
+    pane = [rectangle([-1, -1, 1.5], [2, 0, 0], [0, 2, 0], material="glass"),
+            rectangle([-1, -1, 1.45], [0, 2, 0], [2, 0, 0], material="glass")]
     screen = rectangle([-0.2, -1, 0.8], [1.2, 0, 0], [0, 0.7, 0], material="white")
     back = rectangle([-1, -1, -1], [2, 0, 0], [0, 2, 0], material="mirror")
     scene = plus(without(BOX, "back"), back, screen, *pane)

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from farm_parts import Scene, digest
-from study_vkpm import LIGHT, Failure, Image, Vkpm, read_image, relative_square, say, write_image
+from farming.parts import Scene, digest
+from studies.vkpm import LIGHT, Failure, Image, Vkpm, read_image, relative_square, say, write_image
 
 FIRST_PASSES = 64  # fewer say little about their noise
 SEED = 1000003  # of the first part; unlike those of the cells, whose errors shall not be the reference's

@@ -2,7 +2,22 @@
 
 import numpy as np
 
-from extremes_lab import (BOX, Lab, Render, Verdict, against_path, case, changed, moved, percent, plus, rectangle, same_bits, same_means, scaled)
+from lab import (
+    BOX,
+    Lab,
+    Render,
+    Verdict,
+    against_path,
+    case,
+    changed,
+    moved,
+    percent,
+    plus,
+    rectangle,
+    same_bits,
+    same_means,
+    scaled,
+)
 
 GLASS_BALL = [0.45, -0.65, 0.25]
 
@@ -76,7 +91,8 @@ def camera_on_floor(lab: Lab) -> Verdict:
 
 @case("place", "camera looks along a wall, at 89.99 degrees", "mean of the path tracer within 2 %")
 def camera_grazing(lab: Lab) -> Verdict:
-    camera = {"origin": [-0.9999, 0, 0.9], "target": [-0.9999 - 1.745e-4, 0, -0.1], "up": [0, 1, 0], "fieldOfView": 0.01}
+    camera = {"origin": [-0.9999, 0, 0.9], "target": [-0.9999 - 1.745e-4, 0, -0.1], "up": [0, 1, 0],
+              "fieldOfView": 0.01}
     return seen_from(lab, camera)
 
 

@@ -1,7 +1,24 @@
 """Hostile cases of lights and materials."""
 
-from extremes_lab import (BOX, LIGHT, Lab, Scene, Verdict, against_path, brighter, case, changed, off, percent, plus, rectangle, same_bits,
-                          same_means, sphere, without)
+from lab import (
+    BOX,
+    LIGHT,
+    Lab,
+    Scene,
+    Verdict,
+    against_path,
+    brighter,
+    case,
+    changed,
+    off,
+    percent,
+    plus,
+    rectangle,
+    same_bits,
+    same_means,
+    sphere,
+    without,
+)
 
 LAMP = "light"
 GLASS_BALL = [0.45, -0.65, 0.25]
@@ -33,12 +50,14 @@ for times in (1e-12, 1e12):
 def tiny_lamp(lab: Lab) -> Verdict:
     def lamp(side: float) -> Scene:
         emission = [x * (0.5 / side)**2 for x in (17, 12, 4)]
-        return plus(without(BOX, LAMP), rectangle([-side / 2, 0.99, -side / 2], [side, 0, 0], [0, 0, side], emission=emission))
+        return plus(without(BOX, LAMP),
+                    rectangle([-side / 2, 0.99, -side / 2], [side, 0, 0], [0, 0, side], emission=emission))
     tame, render = lab.render(lamp(0.02), "--passes", "16"), lab.render(lamp(2e-4), "--passes", "16")
     return Verdict(render, tame, *same_means(render, tame, 0.02, ("direct", "indirect", "caustic")))
 
 
-@case("light", "a lamp of the size and distance of the sun over the open room", "direct and indirect light of the path tracer, within 2 %")
+@case("light", "a lamp of the size and distance of the sun over the open room",
+      "direct and indirect light of the path tracer, within 2 %")
 def sun(lab: Lab) -> Verdict:
     room = without(BOX, LAMP, "ceiling", "mirror ball", "glass ball")
     lamp = sphere([200, 1000, 400], 5, emission=[17000, 12000, 4000])
@@ -53,7 +72,8 @@ def far_sun(room: Scene, distance: float) -> Scene:
 
 def by_far_sun(distance: float) -> None:
     """A sun as far as is allowed, whose photons a float at its place could not aim."""
-    @case("light", f"a sun at {distance:g} of the open room", "each layer as of a sun of the same angle at 1000, within 0.5 %")
+    @case("light", f"a sun at {distance:g} of the open room",
+          "each layer as of a sun of the same angle at 1000, within 0.5 %")
     def judge(lab: Lab) -> Verdict:
         tame, render = (lab.render(far_sun(BOX, far), "--passes", "16") for far in (1000, distance))
         return Verdict(render, tame, *same_means(render, tame, 0.005))
@@ -81,7 +101,8 @@ def whole_ceiling(lab: Lab) -> Verdict:
 
 @case("light", "a lamp inside the glass ball", "mean of the path tracer within 2 %")
 def lamp_in_glass(lab: Lab) -> Verdict:
-    return against_path(lab, plus(without(BOX, LAMP), sphere(GLASS_BALL, 0.15, emission=[17, 12, 4])), 0.02, passes="512")
+    return against_path(lab, plus(without(BOX, LAMP), sphere(GLASS_BALL, 0.15, emission=[17, 12, 4])), 0.02,
+                        passes="512")
 
 
 @case("light", "two lamps, flux 10^9 : 1", "the brighter one's picture: means within 0.1 %")
@@ -102,7 +123,8 @@ def weak_lamp_first(lab: Lab) -> Verdict:
 @case("light", "1,000 lamps in place of one", "means within 1 %")
 def many_lamps(lab: Lab) -> Verdict:
     side = 0.5 / 32
-    lamps = [rectangle([-0.25 + side * (i % 32), 0.99, -0.25 + side * (i // 32)], [side, 0, 0], [0, 0, side], emission=[17, 12, 4])
+    lamps = [rectangle([-0.25 + side * (i % 32), 0.99, -0.25 + side * (i // 32)], [side, 0, 0], [0, 0, side],
+                       emission=[17, 12, 4])
              for i in range(1024)]
     tame, render = lab.render(BOX, "--passes", "16"), lab.render(plus(without(BOX, LAMP), *lamps), "--passes", "16")
     return Verdict(render, tame, *same_means(render, tame, 0.01))
@@ -114,7 +136,8 @@ def lamp_outward(lab: Lab) -> Verdict:
     render = lab.render(plus(without(BOX, LAMP), away))
     escaped = all(ledger["escaped"] == ledger["emitted"] for ledger in render.stats["photons"].values())
     dark = sum(render.mean(name) for name in LIGHT)
-    return Verdict(render, lab.render(BOX), f"light {dark:g}, {'all' if escaped else 'not all'} escape", escaped and dark == 0)
+    return Verdict(render, lab.render(BOX), f"light {dark:g}, {'all' if escaped else 'not all'} escape",
+                   escaped and dark == 0)
 
 
 # Matter.
@@ -128,7 +151,8 @@ def diffuse(albedo: float) -> dict:
 @case("matter", "all albedos 0", "nothing is reflected; the lamp is seen")
 def black(lab: Lab) -> Verdict:
     names = ("white", "red", "green")
-    scene = changed(without(BOX, "mirror ball", "glass ball"), materials=BOX["materials"] | {name: diffuse(0) for name in names})
+    scene = changed(without(BOX, "mirror ball", "glass ball"),
+                    materials=BOX["materials"] | {name: diffuse(0) for name in names})
     render = lab.render(scene)
     rest = sum(render.mean(name) for name in ("direct", "indirect", "caustic", "specular"))
     return Verdict(render, lab.render(BOX), f"reflected {rest:g}, emission {render.mean('emission'):.3g}",
@@ -137,12 +161,15 @@ def black(lab: Lab) -> Verdict:
 
 def furnace(albedo: float, tolerance: float) -> None:
     """A closed sphere whose wall shines and reflects: L = E / (1 - a) everywhere."""
-    @case("matter", f"closed furnace of albedo {albedo:g}", f"E / (1 - a) = {1 / (1 - albedo):.6g} within {tolerance:.1%}")
+    @case("matter", f"closed furnace of albedo {albedo:g}",
+          f"E / (1 - a) = {1 / (1 - albedo):.6g} within {tolerance:.1%}")
     def judge(lab: Lab) -> Verdict:
         def wall(a: float) -> Scene:
-            corners = [([-1, -1, 1], [2, 0, 0], [0, 0, -2]), ([-1, 1, -1], [2, 0, 0], [0, 0, 2]), ([-1, -1, -1], [2, 0, 0], [0, 2, 0]),
-                       ([-1, -1, 1], [0, 0, -2], [0, 2, 0]), ([1, -1, -1], [0, 0, 2], [0, 2, 0]), ([1, -1, 1], [-2, 0, 0], [0, 2, 0])]
-            return {"camera": {"origin": [0, 0, 0.5], "target": [0, 0, -1], "fieldOfView": 90}, "film": {"size": [32, 32]},
+            corners = [([-1, -1, 1], [2, 0, 0], [0, 0, -2]), ([-1, 1, -1], [2, 0, 0], [0, 0, 2]),
+                       ([-1, -1, -1], [2, 0, 0], [0, 2, 0]), ([-1, -1, 1], [0, 0, -2], [0, 2, 0]),
+                       ([1, -1, -1], [0, 0, 2], [0, 2, 0]), ([1, -1, 1], [-2, 0, 0], [0, 2, 0])]
+            return {"camera": {"origin": [0, 0, 0.5], "target": [0, 0, -1], "fieldOfView": 90},
+                    "film": {"size": [32, 32]},
                     "materials": {"wall": diffuse(a)},
                     "shapes": [rectangle(*corner, emission=[1, 1, 1], material="wall") for corner in corners]}
         tame = lab.render(wall(0.5), "--photons", "2000", "--passes", "8")
@@ -169,14 +196,17 @@ def white_room(lab: Lab) -> Verdict:
 
 @case("matter", "closed room of albedo 1, lamp and all", "ends after 10,000 bounces, and says how many photons it left")
 def nothing_absorbs(lab: Lab) -> Verdict:
-    front, lamp = rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white"), BOX["shapes"][-1] | {"material": "white"}
+    front = rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white")
+    lamp = BOX["shapes"][-1] | {"material": "white"}
     scene = plus(without(BOX, LAMP, "mirror ball", "glass ball"), front, lamp)
     scene = changed(scene, camera=BOX["camera"] | {"origin": [0, 0, 0.99]},
                     materials=BOX["materials"] | {name: diffuse(1) for name in ("white", "red", "green")})
     render = lab.render(scene, "--photons", "200", "--passes", "1", "--size", "8x8")
-    lost, told = render.photons("global")["lost"], "200 photons were still under way after 10000 bounces" in render.messages
+    lost = render.photons("global")["lost"]
+    told = "200 photons were still under way after 10000 bounces" in render.messages
     render.problems = [problem for problem in render.problems if "were lost" not in problem]
-    return Verdict(render, None, f"{lost} of 200 photons left, {'and says so' if told else 'in silence'}", lost == 200 and told)
+    return Verdict(render, None, f"{lost} of 200 photons left, {'and says so' if told else 'in silence'}",
+                   lost == 200 and told)
 
 
 def by_index(ior: float, other: float, tolerance: float, expected: str) -> None:
@@ -213,23 +243,26 @@ def guide(lab: Lab) -> Verdict:
     side, low, high = 0.05, -0.9, 0.985
     a, b = [-side / 2, low, -side / 2], [side / 2, high, side / 2]
     ex, ey, ez = [side, 0, 0], [0, high - low, 0], [0, 0, side]
-    walls = [(a, ex, ez), ([a[0], high, b[2]], ex, [0, 0, -side]), (a, ey, ex), ([a[0], low, b[2]], ex, ey), ([a[0], low, a[2]], ez, ey),
-             ([b[0], low, a[2]], ey, ez)]
+    walls = [(a, ex, ez), ([a[0], high, b[2]], ex, [0, 0, -side]), (a, ey, ex), ([a[0], low, b[2]], ex, ey),
+             ([a[0], low, a[2]], ez, ey), ([b[0], low, a[2]], ey, ez)]
     bar = [rectangle(*wall, material="glass") for wall in walls]
     scene = plus(without(BOX, "glass ball", "mirror ball"), *bar)
     return against_path(lab, scene, 0.02, passes="512")
 
 
-@case("matter", "glass in glass, touching at a point; two blocks that share a face", "mean of the path tracer within 2 %")
+@case("matter", "glass in glass, touching at a point; two blocks that share a face",
+      "mean of the path tracer within 2 %")
 def touching(lab: Lab) -> Verdict:
     x, y, z = GLASS_BALL
     inner = sphere([x, y - 0.1, z], 0.25, material="inner")  # touches the outer ball from inside
     def block(cx: float) -> list[dict]:
         c, e = [cx, -0.99, -0.3], 0.25
         faces = [(c, [e, 0, 0], [0, 0, e]), ([c[0], c[1] + e, c[2]], [0, 0, e], [e, 0, 0]), (c, [0, e, 0], [e, 0, 0]),
-                 ([c[0], c[1], c[2] + e], [e, 0, 0], [0, e, 0]), (c, [0, 0, e], [0, e, 0]), ([c[0] + e, c[1], c[2]], [0, e, 0], [0, 0, e])]
+                 ([c[0], c[1], c[2] + e], [e, 0, 0], [0, e, 0]), (c, [0, 0, e], [0, e, 0]),
+                 ([c[0] + e, c[1], c[2]], [0, e, 0], [0, 0, e])]
         return [rectangle(*face, material="glass") for face in faces]
-    scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25), inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
+    scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25),
+                 inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
     return against_path(lab, scene, 0.02, passes="512")
 
 
@@ -237,8 +270,8 @@ def plate_on_floor(gap: float, first: bool) -> Scene:
     """A glass plate over most of the box's floor, before or after all other shapes."""
     low, high, side = -1 + gap, -0.8, 0.9
     a, ex, ez, ey = [-side, low, -side], [2 * side, 0, 0], [0, 0, 2 * side], [0, high - low, 0]
-    faces = [(a, ex, ez), ([-side, high, side], ex, [0, 0, -2 * side]), (a, ey, ex), ([-side, low, side], ex, ey), (a, ez, ey),
-             ([side, low, -side], ey, ez)]
+    faces = [(a, ex, ez), ([-side, high, side], ex, [0, 0, -2 * side]), (a, ey, ex), ([-side, low, side], ex, ey),
+             (a, ez, ey), ([side, low, -side], ey, ez)]
     plate = [rectangle(*face, material="glass") for face in faces]
     rest = without(BOX, "glass ball", "mirror ball")
     return changed(rest, shapes=[*plate, *rest["shapes"]] if first else [*rest["shapes"], *plate])
@@ -247,9 +280,11 @@ def plate_on_floor(gap: float, first: bool) -> Scene:
 def by_contact(first: bool, gap: float) -> None:
     """One face in common, or nearly, in either order."""
     where = f"{gap:g} above the floor" if gap else "on the floor"
-    @case("matter", f"a glass plate {where}, {'first' if first else 'last'} of the shapes", "each layer as of one sunk by 10^-3, within 0.5 %")
+    @case("matter", f"a glass plate {where}, {'first' if first else 'last'} of the shapes",
+          "each layer as of one sunk by 10^-3, within 0.5 %")
     def judge(lab: Lab) -> Verdict:
-        tame, render = lab.render(plate_on_floor(-1e-3, False), "--passes", "16"), lab.render(plate_on_floor(gap, first), "--passes", "16")
+        tame = lab.render(plate_on_floor(-1e-3, False), "--passes", "16")
+        render = lab.render(plate_on_floor(gap, first), "--passes", "16")
         return Verdict(render, tame, *same_means(render, tame, 0.005))
 
 
@@ -268,6 +303,7 @@ def mirrors(lab: Lab) -> Verdict:
 
 @case("matter", "glass tint of 10^-6", "mean of the path tracer within 2 %")
 def tinted(lab: Lab) -> Verdict:
-    return against_path(lab, changed(BOX, materials=BOX["materials"] | {"glass": {"type": "glass", "ior": 1.5, "tint": 1e-6}}), 0.02)
+    black = {"glass": {"type": "glass", "ior": 1.5, "tint": 1e-6}}
+    return against_path(lab, changed(BOX, materials=BOX["materials"] | black), 0.02)
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
 HANG = 300  # seconds after which a render hangs
 
@@ -119,7 +119,8 @@ class Lab:
                    "--stats", str(file.with_suffix(".json")), *words]
         render = Render(file, command)
         try:
-            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False, env=self.environment)
+            process = subprocess.run(command, capture_output=True, text=True, timeout=HANG, check=False,
+                                     env=self.environment)
         except subprocess.TimeoutExpired:
             render.problems = [f"hangs: no end after {HANG} s"]
             return render

@@ -2,8 +2,21 @@
 
 import math
 
-from extremes_lab import (BOX, Lab, Scene, Verdict, against_path, case, changed, plus, rectangle, same_means, same_pixels, sphere,
-                          without)
+from lab import (
+    BOX,
+    Lab,
+    Scene,
+    Verdict,
+    against_path,
+    case,
+    changed,
+    plus,
+    rectangle,
+    same_means,
+    same_pixels,
+    sphere,
+    without,
+)
 
 
 def floor_mesh(file: str) -> Scene:
@@ -22,7 +35,8 @@ def grid_triangles(n: int) -> list:
     return [t for c in corners for t in ((c, c + 1, c + n + 2), (c, c + n + 2, c + n + 1))]
 
 
-@case("shape", "a floor of slivers 2 x 10^-4, zero-area triangles between them", "the box's means within 0.5 %, a warning")
+@case("shape", "a floor of slivers 2 x 10^-4, zero-area triangles between them",
+      "the box's means within 0.5 %, a warning")
 def slivers(lab: Lab) -> Verdict:
     n = 20000
     points = [(-1 + 2 * i / n, -1, z) for i in range(n + 1) for z in (1, -1)]
@@ -43,23 +57,25 @@ def duplicates(lab: Lab) -> Verdict:
 
 @case("shape", "a second floor in the plane of the first", "the box's means within 0.5 %")
 def coplanar(lab: Lab) -> Verdict:
-    render = lab.render(plus(BOX, rectangle([-1.3, -1, 1.1], [2.9, 0, 0], [0, 0, -2.7], material="white")), "--passes", "16")
-    tame = lab.render(plus(without(BOX, "floor"), rectangle([-1.3, -1, 1.1], [2.9, 0, 0], [0, 0, -2.7], material="white")), "--passes", "16")
+    second = rectangle([-1.3, -1, 1.1], [2.9, 0, 0], [0, 0, -2.7], material="white")
+    render = lab.render(plus(BOX, second), "--passes", "16")
+    tame = lab.render(plus(without(BOX, "floor"), second), "--passes", "16")
     return Verdict(render, tame, *same_means(render, tame, 0.005))
 
 
 @case("shape", "a needle of aspect 10^6 across the room", "the box's means within 0.5 %")
 def needle(lab: Lab) -> Verdict:
     points = [(-0.9, -0.9, -0.9), (0.9, 0.9, 0.9), (0.9, 0.9 + 3e-6, 0.9)]
-    scene = plus(BOX, {"name": "needle", "type": "mesh", "file": lab.mesh("needle.obj", points, [(0, 1, 2)]), "material": "white"})
+    scene = plus(BOX, {"name": "needle", "type": "mesh", "file": lab.mesh("needle.obj", points, [(0, 1, 2)]),
+                       "material": "white"})
     render, tame = lab.render(scene, "--passes", "16"), lab.render(BOX, "--passes", "16")
     return Verdict(render, tame, *same_means(render, tame, 0.005))
 
 
 @case("shape", "spheres of radius 10^-6 and 10^6", "mean of the path tracer within 2 %")
 def spheres(lab: Lab) -> Verdict:
-    scene = plus(without(BOX, "floor"), sphere([0, -1 - 1e6, 0], 1e6, material="white"), sphere([0, 0, 0], 1e-6, material="mirror"),
-                 sphere([0.3, 0.2, 0], 1e-6, material="glass"))
+    scene = plus(without(BOX, "floor"), sphere([0, -1 - 1e6, 0], 1e6, material="white"),
+                 sphere([0, 0, 0], 1e-6, material="mirror"), sphere([0.3, 0.2, 0], 1e-6, material="glass"))
     return against_path(lab, scene, 0.02)
 
 
@@ -67,8 +83,10 @@ def marble(radius: float, room: float) -> Scene:
     """A glass ball on the floor of a room, seen from nearby, under a lamp by the ceiling."""
     def wall(corner: list, u: list, v: list, **rest: object) -> Scene:
         return rectangle([room * x for x in corner], [room * x for x in u], [room * x for x in v], **rest)
-    walls = [wall([-0.5, 0, 0.5], [1, 0, 0], [0, 0, -1], material="white"), wall([-0.5, 0, -0.5], [1, 0, 0], [0, 0.6, 0], material="white"),
-             wall([-0.5, 0, 0.5], [0, 0, -1], [0, 0.6, 0], material="white"), wall([0.5, 0, -0.5], [0, 0, 1], [0, 0.6, 0], material="white"),
+    walls = [wall([-0.5, 0, 0.5], [1, 0, 0], [0, 0, -1], material="white"),
+             wall([-0.5, 0, -0.5], [1, 0, 0], [0, 0.6, 0], material="white"),
+             wall([-0.5, 0, 0.5], [0, 0, -1], [0, 0.6, 0], material="white"),
+             wall([0.5, 0, -0.5], [0, 0, 1], [0, 0.6, 0], material="white"),
              wall([-0.5, 0.6, -0.5], [1, 0, 0], [0, 0, 1], material="white"),
              wall([-0.2, 0.58, -0.03], [0.06, 0, 0], [0, 0, 0.06], emission=[50, 50, 50])]
     camera = {"origin": [6 * radius, 7 * radius, 14 * radius], "target": [radius, 0, 0], "fieldOfView": 30}
@@ -77,12 +95,14 @@ def marble(radius: float, room: float) -> Scene:
 
 def by_marble(radius: float, room: float) -> None:
     """Caustics of small things in large rooms."""
-    @case("shape", f"a marble of radius {radius:g} in a room of {room:g}", "the caustic of light tracing, relMSE below 10^-3")
+    @case("shape", f"a marble of radius {radius:g} in a room of {room:g}",
+          "the caustic of light tracing, relMSE below 10^-3")
     def judge(lab: Lab) -> Verdict:
         options = "--layers", "caustic", "--caustic-photons", "50000", "--passes"
         render = lab.render(marble(radius, room), *options, "16")
         truth = lab.render(marble(radius, room), "--integrator", "light", *options, "120")
-        return Verdict(render, lab.render(marble(room / 50, room), *options, "16"), *same_pixels(render, truth, "caustic", 1e-3), work=1.5)
+        return Verdict(render, lab.render(marble(room / 50, room), *options, "16"),
+                       *same_pixels(render, truth, "caustic", 1e-3), work=1.5)
 
 
 for case_of in ((0.02, 5), (0.0005, 0.5), (0.01, 50)):
@@ -92,7 +112,8 @@ for case_of in ((0.02, 5), (0.0005, 0.5), (0.01, 50)):
 @case("shape", "a mesh of one triangle", "mean of the path tracer within 2 %")
 def one_triangle(lab: Lab) -> Verdict:
     file = lab.mesh("triangle.obj", [(-0.8, -0.9, 0.2), (0.8, -0.9, 0), (0, 0.3, -0.3)], [(0, 1, 2)])
-    scene = plus(without(BOX, "mirror ball", "glass ball"), {"name": "one", "type": "mesh", "file": file, "material": "red"})
+    scene = plus(without(BOX, "mirror ball", "glass ball"),
+                 {"name": "one", "type": "mesh", "file": file, "material": "red"})
     return against_path(lab, scene, 0.02)
 
 
@@ -107,9 +128,12 @@ def many_triangles(lab: Lab) -> Verdict:
 def dark_room(thickness: float) -> Scene:
     """Two closed rooms, a lamp in the far one, the camera in the other."""
     wall = 0.0
-    shapes = [rectangle([-1, -1, 1], [2, 0, 0], [0, 0, -2], material="white"), rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], material="white"),
-              rectangle([-1, -1, -1], [2, 0, 0], [0, 2, 0], material="white"), rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white"),
-              rectangle([-1, -1, 1], [0, 0, -2], [0, 2, 0], material="white"), rectangle([1, -1, -1], [0, 0, 2], [0, 2, 0], material="white"),
+    shapes = [rectangle([-1, -1, 1], [2, 0, 0], [0, 0, -2], material="white"),
+              rectangle([-1, 1, -1], [2, 0, 0], [0, 0, 2], material="white"),
+              rectangle([-1, -1, -1], [2, 0, 0], [0, 2, 0], material="white"),
+              rectangle([1, -1, 1], [-2, 0, 0], [0, 2, 0], material="white"),
+              rectangle([-1, -1, 1], [0, 0, -2], [0, 2, 0], material="white"),
+              rectangle([1, -1, -1], [0, 0, 2], [0, 2, 0], material="white"),
               rectangle([-1, -1, wall], [2, 0, 0], [0, 2, 0], material="white"),
               rectangle([-1, -1, wall - thickness], [0, 2, 0], [2, 0, 0], material="white"),
               rectangle([-0.25, 0.99, -0.75], [0.5, 0, 0], [0, 0, 0.5], emission=[17, 12, 4])]
@@ -120,8 +144,10 @@ def dark_room(thickness: float) -> Scene:
 @case("shape", "a wall of 10^-4 between a lit and a dark room",
       "no direct light leaks; of the light gathered in discs 10^-3 at most, less with more passes, as discs shrink")
 def thin_wall(lab: Lab) -> Verdict:
-    dark, lit = dark_room(1e-4), changed(dark_room(1e-4), camera={"origin": [0, 0, -0.95], "target": [0, 0, -0.1], "fieldOfView": 90})
-    render, longer, tame = lab.render(dark, "--passes", "16"), lab.render(dark, "--passes", "64"), lab.render(lit, "--passes", "16")
+    dark = dark_room(1e-4)
+    lit = changed(dark, camera={"origin": [0, 0, -0.95], "target": [0, 0, -0.1], "fieldOfView": 90})
+    render, longer = lab.render(dark, "--passes", "16"), lab.render(dark, "--passes", "64")
+    tame = lab.render(lit, "--passes", "16")
     leak, later = render.mean() / tame.mean(), longer.mean() / tame.mean()
     return Verdict(render, tame, f"direct {render.mean('direct'):g}; in all {leak:.1e}, after 64 passes {later:.1e}",
                    render.mean("direct") == 0 and later < 0.9 * leak <= 0.9e-3)
@@ -138,8 +164,10 @@ def coarse_glass(lab: Lab) -> Verdict:
         a, b, c = (points[i] for i in corners)
         u, v = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
         cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-        return corners if sum(x * y for x, y in zip(cross, a, strict=True)) > 0 else (corners[0], corners[2], corners[1])
-    ball = {"name": "ball", "type": "mesh", "file": lab.mesh("ball.obj", points, [outward(t) for t in triangles]), "smooth": True,
+        facing = sum(x * y for x, y in zip(cross, a, strict=True))
+        return corners if facing > 0 else (corners[0], corners[2], corners[1])
+    ball = {"name": "ball", "type": "mesh", "file": lab.mesh("ball.obj", points, [outward(t) for t in triangles]),
+            "smooth": True,
             "material": "glass", "transform": [{"scale": 0.18}, {"translate": [0.45, -0.6, 0.25]}]}
     flat = plus(without(BOX, "glass ball"), ball | {"smooth": False})
     return against_path(lab, plus(without(BOX, "glass ball"), ball), 0.02, flat)

@@ -4,20 +4,17 @@ import base64
 import html
 import io
 import json
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import matplotlib.image
 import numpy as np
 from matplotlib import pyplot
 
-from study_curves import LEFT_OUT, TARGETS, TRUST, Curve, layer_curve, mean_curve, read_rows, without_reference
-from study_plot import COLOURS, Axis, Line, inline, plot_axes, plot_layers, plot_one, style
-from study_vkpm import LIGHT, flip
-
-if TYPE_CHECKING:
-    from study_run import Cell, Study, Truth, Variant
+from studies.cells import Cell, Study, Truth, Variant
+from studies.curves import LEFT_OUT, TARGETS, TRUST, Curve, layer_curve, mean_curve, read_rows, without_reference
+from studies.plot import COLOURS, Axis, Line, inline, plot_axes, plot_layers, plot_one, style
+from studies.vkpm import LIGHT, flip
 
 escape = html.escape
 
@@ -101,7 +98,7 @@ def developed(radiance: np.ndarray, exposure: float) -> np.ndarray:
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def pictures(truth: "Truth", cells: list["Cell"]) -> str:
+def pictures(truth: Truth, cells: list[Cell]) -> str:
     """The reference, then renders and their FLIP maps."""
     exposure = float(truth.image.attributes.get("vkpm/exposure", 0))
     beauty = truth.image.layers["beauty"]
@@ -124,7 +121,7 @@ def pictures(truth: "Truth", cells: list["Cell"]) -> str:
 class Result:
     """What the seeds of one variant came to."""
 
-    def __init__(self, study: "Study", variant: "Variant"):
+    def __init__(self, study: Study, variant: Variant):
         self.variant = variant
         self.cells = [cell for cell in study.cells if cell.variant == variant]
         self.facts = [cell.facts() for cell in self.cells]
@@ -169,7 +166,7 @@ def slopes_table(results: list[Result], layers: list[str]) -> str:
     return table(["slope, relMSE reached", *layers], rows)
 
 
-def about_reference(truth: "Truth") -> str:
+def about_reference(truth: Truth) -> str:
     """How good the reference is."""
     facts = truth.facts
     made = "; ".join(
@@ -183,7 +180,7 @@ def about_reference(truth: "Truth") -> str:
     return f'<p class="faint">Reference: {escape(name)}.{stated}{own}</p>'
 
 
-def scene_section(study: "Study", scene: Path) -> str:
+def scene_section(study: Study, scene: Path) -> str:
     """All about one scene."""
     truth = study.truths[scene]
     results = [Result(study, variant) for variant in study.variants if variant.scene == scene]
@@ -201,14 +198,14 @@ def scene_section(study: "Study", scene: Path) -> str:
 # Each axis by itself.
 
 
-def last_error(study: "Study", scene: Path, pair: tuple[str, str], layer: str) -> float:
+def last_error(study: Study, scene: Path, pair: tuple[str, str], layer: str) -> float:
     """The error at the end of an option's value, of the first integrator; NaN if the reference is too noisy to tell."""
     variants = [variant for variant in study.variants if variant.scene == scene and variant.values == (pair,)]
     errors = Result(study, variants[0]).layers[layer].errors if variants else []
     return float(errors[-1]) if len(errors) else float("nan")
 
 
-def axes_section(study: "Study") -> str:
+def axes_section(study: Study) -> str:
     """The errors at the end of equal time by the values of each option; also written as axes.png."""
     layers = ["beauty", "caustic"]
     scenes = {scene.stem: scene for scene in study.args.scenes}
@@ -224,7 +221,7 @@ def axes_section(study: "Study") -> str:
 # The page.
 
 
-def introduction(study: "Study") -> str:
+def introduction(study: Study) -> str:
     """What is shown and how to read it."""
     seeds = f"{study.args.repeat} seeds, whose errors are averaged" if study.args.repeat > 1 else "one seed"
     how = ("vkpm compared the images with the reference itself while it rendered" if study.vkpm.has_report
@@ -243,26 +240,26 @@ means it was not reached. FLIP maps show what an eye would notice, dark for noth
 reference in its place.</p>"""
 
 
-def circumstances(study: "Study") -> str:
+def circumstances(study: Study) -> str:
     """Machine, driver, program."""
     commits = ", ".join(sorted({cell.facts()["commit"] for cell in study.cells}))
     facts = {"processor": f"{study.machine['cpu']}, {study.machine['cores']} cores", "system": study.machine["system"],
              "device and driver": "; ".join(study.device["devices"]),
              "program": f"{study.vkpm.version}, commit {commits}",
              "rendered by": ", ".join(sorted({cell.facts()["device"] for cell in study.cells})),
-             "page written": datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")}
+             "page written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")}
     rows = "".join(f"<tr><td>{name}</td><td>{escape(text)}</td></tr>" for name, text in facts.items())
     return f'<table class="facts">{rows}</table>'
 
 
-def command_lines(study: "Study") -> str:
+def command_lines(study: Study) -> str:
     """Everything that was run, by cells."""
     commands = ((cell.name, "\n".join(cell.facts()["commands"])) for cell in study.cells)
     blocks = "".join(f"<h3>{escape(name)}</h3><pre>{escape(lines)}</pre>" for name, lines in commands)
     return f"<h2>Command lines</h2><details><summary>{len(study.cells)} renders</summary>{blocks}</details>"
 
 
-def write_page(study: "Study") -> Path:
+def write_page(study: Study) -> Path:
     """Writes the page of a study whose cells are all finished, and returns its path."""
     sections = axes_section(study) if study.args.alone else ""
     sections += "".join(scene_section(study, scene) for scene in study.args.scenes)

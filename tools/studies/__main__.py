@@ -7,9 +7,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from study_reference import make_references
-from study_run import run_study
-from study_vkpm import VKPM, Failure, say
+from studies.reference import make_references
+from studies.run import run_study
+from studies.vkpm import VKPM, Failure, say
 
 OF_THE_STUDY = {"-o", "--output", "--scene", "--size", "--integrator", "--layers", "--seed", "--passes", "--pass-range",
                 "--time", "--reference", "--report", "--resume", "--checkpoint", "--stats", "--log", "--quiet",
