@@ -11,5 +11,9 @@ int compare(const Options& options);
 int merge(const Options& options);
 int showDevices(const Options& options);
 int bench(const Options& options);
+int showVersion(const Options& options);
+
+/// What vkpm was built from, as git says it; "unknown" without git.
+extern const char* const commit;
 
 } // namespace vkpm

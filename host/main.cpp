@@ -16,6 +16,7 @@ using namespace vkpm;
 static int run(const Options& options) {
     switch (options.command) {
     case Command::Print: std::fputs(options.text.c_str(), stdout); return 0;
+    case Command::Version: return showVersion(options);
     case Command::Devices: return showDevices(options);
     case Command::Bench: return bench(options);
     case Command::Plan: return plan(options);

@@ -258,6 +258,20 @@ Options parseBench(std::span<const std::string> arguments) {
     return options;
 }
 
+Options parseCommand(std::span<const std::string> all) {
+    if (all[0].starts_with('-') || all[0] == "render") return parseRender(all.subspan(all[0] == "render"), Command::Render);
+    if (all[0] == "view") return parseRender(all.subspan(1), Command::View);
+    if (all[0] == "plan") return parsePlan(all.subspan(1));
+    if (all[0] == "compare") return parseCompare(all.subspan(1));
+    if (all[0] == "merge") return parseMerge(all.subspan(1));
+    if (all[0] == "devices") return parseDevices(all.subspan(1));
+    if (all[0] == "bench") return parseBench(all.subspan(1));
+    const bool isFile = fs::path(all[0]).has_extension();
+    throw InputError(fmt::format("found command \"{}\"; allowed: render, view, plan, compare, merge, devices, bench{}", all[0],
+                                 isFile ? "; a scene is given as --scene " + all[0]
+                                        : suggestion(all[0], {"render", "view", "plan", "compare", "merge", "devices", "bench"})));
+}
+
 } // namespace
 
 Settings Options::override(Settings settings) const {
@@ -301,18 +315,9 @@ void requireFilesApart(const Options& options, std::span<const fs::path> sceneFi
 Options parseOptions(int count, const char* const* arguments) {
     std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
     if (words.empty()) words.push_back("--help");
-    const std::span<const std::string> all(words);
-    if (all[0].starts_with('-') || all[0] == "render") return parseRender(all.subspan(all[0] == "render"), Command::Render);
-    if (all[0] == "view") return parseRender(all.subspan(1), Command::View);
-    if (all[0] == "plan") return parsePlan(all.subspan(1));
-    if (all[0] == "compare") return parseCompare(all.subspan(1));
-    if (all[0] == "merge") return parseMerge(all.subspan(1));
-    if (all[0] == "devices") return parseDevices(all.subspan(1));
-    if (all[0] == "bench") return parseBench(all.subspan(1));
-    const bool isFile = fs::path(all[0]).has_extension();
-    throw InputError(fmt::format("found command \"{}\"; allowed: render, view, plan, compare, merge, devices, bench{}", all[0],
-                                 isFile ? "; a scene is given as --scene " + all[0]
-                                        : suggestion(all[0], {"render", "view", "plan", "compare", "merge", "devices", "bench"})));
+    Options options = parseCommand(words);
+    if (options.text == versionText) options.command = Command::Version;
+    return options;
 }
 
 } // namespace vkpm

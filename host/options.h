@@ -9,12 +9,12 @@
 
 namespace vkpm {
 
-enum class Command { Print, Render, View, Plan, Compare, Merge, Devices, Bench };
+enum class Command { Print, Version, Render, View, Plan, Compare, Merge, Devices, Bench };
 
 /// What the command line asks for; what it leaves open is absent.
 struct Options {
     Command command = Command::Print;
-    std::string text;             // Print: the help or the version, for stdout
+    std::string text;             // Print, Version: the help or the first line, for stdout
     std::filesystem::path scene;  // bench: empty for its own scene
     std::filesystem::path output; // render, merge: always set, ends in .exr
     std::vector<std::filesystem::path> parts; // merge; compare: image, reference; bench: scenes

@@ -176,6 +176,8 @@ TEST_F(OptionsTest, PrintsHelpAndVersion) {
         EXPECT_THAT(options.text, HasSubstr(fmt::format("(default {}x{})", defaults.size.x, defaults.size.y)));
     }
     EXPECT_EQ(parse({"--version"}).text, "vkpm " VKPM_VERSION "\n");
+    for (const auto& words : std::vector<std::vector<const char*>>{{"--version"}, {"compare", "--version"}, {"--passes", "x", "--version"}})
+        EXPECT_EQ(parse(words).command, Command::Version);
     EXPECT_THAT(parse({"compare", "--help"}).text, AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
     EXPECT_THAT(parse({"devices", "--help"}).text, AllOf(HasSubstr("--json"), Not(HasSubstr("--scene"))));
 }
