@@ -7,5 +7,4 @@ endif()
 if(NOT COMMIT)
     set(COMMIT unknown)
 endif()
-file(CONFIGURE OUTPUT ${OUTPUT} @ONLY
-    CONTENT "#include \"commands.h\"\nconst char* const vkpm::commit = \"@COMMIT@\";\n")
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#include \"commands.h\"\nconst char* const vkpm::commit = \"${COMMIT}\";\n")

@@ -28,7 +28,7 @@ file(READ host/changelog changes)
 string(REPLACE "(${PROJECT_VERSION})" "(${version})" changes "${changes}")
 file(WRITE ${documents}/changelog "${changes}")
 file(COPY host/vkpm.1 DESTINATION ${documents})
-execute_process(COMMAND gzip -9nf changelog vkpm.1 WORKING_DIRECTORY ${documents} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND gzip -9nf changelog vkpm.1 WORKING_DIRECTORY ${documents})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS LICENSE host/changelog host/vkpm.1)
 
 file(GLOB scenes CONFIGURE_DEPENDS scenes/*.json scenes/*.obj)

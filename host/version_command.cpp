@@ -1,6 +1,7 @@
 /// vkpm --version: version, commit, and the Vulkan driver that a render would run on.
 #include "commands.h"
 #include "gpu/gpu.h"
+#include <cstdio>
 #include <exception>
 #include <fmt/format.h>
 
