@@ -1,21 +1,21 @@
 /// vkpm --version: version, commit, and the Vulkan driver that a render would run on.
 #include "commands.h"
 #include "gpu/gpu.h"
-#include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <string>
 
 namespace vkpm {
 
 int showVersion(const Options& options) {
-    fmt::print("{}commit {}\n", options.text, commit);
-    std::fflush(stdout); // a driver may crash
+    std::string driver;
     try {
         const DeviceInfo device = defaultDevice();
-        fmt::print("driver {}, on {}\n", device.driver, device.name);
+        driver = fmt::format("{}, on {}", device.driver, device.name);
     } catch (const std::exception& error) { // the rest is no less true
-        fmt::print("driver none: {}\n", error.what());
+        driver = fmt::format("none: {}", error.what());
     }
+    fmt::print("{}commit {}\ndriver {}\n", options.text, commit, driver); // at once, for readers that stop after the first line
     return 0;
 }
 
