@@ -59,9 +59,7 @@ def main() -> None:
         sys.exit(f"layouts.py: found {len(asserts)} layouts; kernels were compiled without names")
     headers = sorted((Path(__file__).parent.parent / "shaders").glob("shared_*.h"))
     lines = ["// Made by layouts.py.", *(f'#include "{header.name}"' for header in headers), "#include <cstddef>", *sorted(asserts)]
-    output.write_text("
-".join(lines) + "
-")
+    output.write_text("\n".join(lines) + "\n")
 
 
 main()

@@ -190,6 +190,8 @@ private:
     std::string usage;
 };
 
+const char* const versionText = "vkpm " VKPM_VERSION "\n";
+
 /// One command's options: CLI11 splits the command line, what the values mean is looked at afterwards, so that
 /// --help and unknown options come before wrong values.
 class Parser {
@@ -198,7 +200,7 @@ public:
 
     Parser(const std::string& description, const std::string& usage) : app(description) {
         app.set_help_flag("-h,--help", "print this");
-        app.set_version_flag("--version", VKPM_VERSION, "print the version");
+        app.set_version_flag("--version", VKPM_VERSION, "print version, commit and driver");
         app.allow_extras();
         app.formatter(std::make_shared<HelpFormatter>(usage));
     }
@@ -236,7 +238,7 @@ public:
         } catch (const CLI::CallForHelp&) {
             return help();
         } catch (const CLI::CallForVersion&) {
-            return fmt::format("vkpm {}\n", VKPM_VERSION);
+            return versionText;
         } catch (const CLI::ArgumentMismatch& error) {
             throw InputError(mismatch(error.what()));
         } catch (const CLI::ParseError& error) {

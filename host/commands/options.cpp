@@ -246,9 +246,7 @@ const std::pair<const char*, Options (*)(std::span<const std::string>)> PARSERS[
 
 } // namespace
 
-Options parseOptions(int count, const char* const* arguments) {
-    std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
-    if (words.empty()) words.push_back("--help");
+static Options parseCommand(const std::vector<std::string>& words) {
     if (words[0].starts_with('-')) return parseRender<RenderOptions>(words);
     std::vector<std::string> known;
     for (const auto& [name, parse] : PARSERS) {
@@ -257,6 +255,14 @@ Options parseOptions(int count, const char* const* arguments) {
     }
     const std::string help = fs::path(words[0]).has_extension() ? "; a scene is given as --scene " + words[0] : suggestion(words[0], known);
     throw InputError(fmt::format("found command \"{}\"; allowed: {}{}", words[0], fmt::join(known, ", "), help));
+}
+
+Options parseOptions(int count, const char* const* arguments) {
+    std::vector<std::string> words(arguments + std::min(count, 1), arguments + count);
+    if (words.empty()) words.push_back("--help");
+    const Options options = parseCommand(words);
+    const auto* print = std::get_if<PrintOptions>(&options);
+    return print && print->text == versionText ? Options(VersionOptions{}) : options;
 }
 
 } // namespace vkpm

@@ -7,8 +7,9 @@
 namespace vkpm {
 
 struct PrintOptions {
-    std::string text; // the help or the version, for stdout
+    std::string text; // the help, for stdout
 };
+struct VersionOptions {};
 struct ViewOptions : RenderOptions {};
 struct PlanOptions : RenderOptions {
     bool json = false;
@@ -35,7 +36,7 @@ struct BenchOptions {
     bool json = false;
 };
 
-using Options = std::variant<PrintOptions, RenderOptions, ViewOptions, PlanOptions, CompareOptions, MergeOptions, DevicesOptions, BenchOptions>;
+using Options = std::variant<PrintOptions, VersionOptions, RenderOptions, ViewOptions, PlanOptions, CompareOptions, MergeOptions, DevicesOptions, BenchOptions>;
 
 /// Reads the command line; main's arguments, the program's name first. Throws InputError with the option, what was
 /// found and what is allowed.

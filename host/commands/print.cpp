@@ -1,4 +1,4 @@
-/// vkpm --help and --version.
+/// vkpm --help.
 #include "commands/commands.h"
 #include <cstdio>
 

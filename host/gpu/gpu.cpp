@@ -210,4 +210,10 @@ std::vector<DeviceInfo> listDevices() {
     return infos;
 }
 
+DeviceInfo defaultDevice() {
+    const Instance instance;
+    const auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); });
+    return describe(devices[chooseDevice(devices, {})]);
+}
+
 } // namespace vkpm

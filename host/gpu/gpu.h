@@ -61,4 +61,7 @@ public:
 /// All devices of this machine, in the order of their indices.
 std::vector<DeviceInfo> listDevices();
 
+/// The one that a Gpu opens if none is wanted by name. Throws GpuError if there is none.
+DeviceInfo defaultDevice();
+
 } // namespace vkpm

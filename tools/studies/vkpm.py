@@ -47,7 +47,7 @@ class Vkpm:
         if not os.access(self.path, os.X_OK):
             raise Failure(f"tools/study: --vkpm: found {path}; allowed: the program vkpm", 2)
         self.hash = digest(Path(self.path).read_bytes())
-        self.version = self.output("--version").strip()
+        self.version = self.output("--version").splitlines()[0]
         self.has_report = re.search(r"^ *--report\b", self.output("--help"), re.MULTILINE) is not None
 
     def output(self, *words: str) -> str:
