@@ -22,7 +22,7 @@ import places  # isort: skip: the order of the table
 import light
 import photons
 import shapes
-from lab import CASES, Case, Lab, Refused, Verdict
+from lab import CASES, TRUTHS, Case, Lab, Refused, Verdict
 from studies.page import STYLE, developed, picture, table
 
 MODULES = (places, light, shapes, photons)  # each registers its cases
@@ -45,6 +45,8 @@ def arguments() -> argparse.Namespace:
                         help="N of these cases, drawn by the number VKPM_DRAW_SEED (default 1)")
     parser.add_argument("--jobs", type=int, default=1, metavar="N",
                         help="renders N cases at a time; slow ones are timed again alone (default 1)")
+    parser.add_argument("--truths", action="store_true",
+                        help="renders what these cases are judged by anew, and writes it to tests/data/hostile_truths.json")
     return parser.parse_args()
 
 
@@ -134,6 +136,7 @@ def main() -> int:
     folder = args.output or Path(tempfile.mkdtemp(prefix="vkpm-extremes-"))
     folder.mkdir(parents=True, exist_ok=True)
     lab = Lab(args.vkpm, folder.resolve(), environment(args.driver))
+    lab.traces_all = args.truths
     cases = [case for case in CASES if (args.heavy or not case.heavy) and args.only in f"{case.group} {case.name}"]
     if not cases:
         sys.exit(f"tools/extremes: --only: no case has the words {args.only!r}; without it all are rendered")
@@ -156,6 +159,9 @@ def main() -> int:
               + "".join(f"\n       {line}" for line in wrong), flush=True)
     device = next((render.stats["device"] for render in lab.known.values() if not render.code), "no device")
     print(f"{len(rows)} cases on {device}; {failed} fail")
+    if args.truths:
+        kept = lab.traced if not args.only and args.heavy else lab.truths | lab.traced
+        TRUTHS.write_text(json.dumps(dict(sorted(kept.items())), indent=1) + "\n")
     if args.output:
         (folder / "index.html").write_text(page(rows, device))
         (folder / "table.md").write_text(markdown([words for words, _ in rows]))

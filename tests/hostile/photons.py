@@ -99,7 +99,7 @@ def lens(caustic_photons: str, field_of_view: float) -> tuple[Scene, tuple[str, 
 def focus(lab: Lab) -> Verdict:
     scene, options = lens("1000000", 1)
     render = lab.render(scene, *options)
-    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
+    truth = lab.truth(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
     spread = changed(scene,
                      shapes=[scene["shapes"][0], sphere([0, 0.6, 0], 1 / 3, material="glass"), scene["shapes"][2]])
     difference = off(render.mean("caustic"), truth.mean("caustic"))
@@ -111,7 +111,7 @@ def focus(lab: Lab) -> Verdict:
 def focus_by_hand(lab: Lab) -> Verdict:
     scene, options = lens("1000000", 3)
     render = lab.render(scene, *options, "--caustic-radius", "0.05")
-    truth = lab.render(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
+    truth = lab.truth(scene, "--integrator", "light", "--caustic-photons", "1000000", "--passes", "4")
     difference = off(render.mean("caustic"), truth.mean("caustic"))
     return Verdict(render, lab.render(scene, *options), percent(difference), abs(difference) <= 0.05)
 
