@@ -1,7 +1,7 @@
 // Small computations with known results; see host/gpu/audit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_audit.h"
 
 ARGS(AuditArgs)

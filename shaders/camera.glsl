@@ -1,7 +1,7 @@
 // A pinhole camera.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_scene.h"
 
 // Direction through a film position in [0, 1]^2, y down.

@@ -2,7 +2,7 @@
 // whether any key has too many.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_photons.h"
 
 ARGS(CellsArgs)
@@ -12,6 +12,6 @@ void main() {
     if (i > args.count) return;
     uint first = i == 0u ? 0u : args.keys.at[i - 1u] + 1u;
     uint last = i == args.count ? args.cellMask + 1u : args.keys.at[i];
-    if (i + MOST_PER_CELL < args.count && args.keys.at[i] == args.keys.at[i + MOST_PER_CELL]) args.crowded.at[0] = 1u;
+    if (i + MAX_PHOTONS_PER_CELL < args.count && args.keys.at[i] == args.keys.at[i + MAX_PHOTONS_PER_CELL]) args.overfull.at[0] = 1u;
     for (uint key = first; key <= last; key++) args.cells.at[key] = i;
 }

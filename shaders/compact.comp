@@ -2,7 +2,7 @@
 // compaction.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_paths.h"
 
 ARGS(CompactArgs)

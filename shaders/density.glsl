@@ -1,8 +1,8 @@
 // Density estimation: irradiance at a point from the photons around it.
 #ifndef DENSITY_GLSL
 #define DENSITY_GLSL
-#include "kernel.glsl"
-#include "frame.glsl"
+#include "common.glsl"
+#include "directions.glsl"
 #include "grid.glsl"
 #include "shared_camera.h"
 #include "shared_photons.h"
@@ -11,9 +11,9 @@
 // Cone with k = 1.1 (Jensen 1996), Gauss with alpha = 0.918, beta = 1.953 (Pavicic 1990, as in Jensen 2001, here normalised),
 // Epanechnikov 1969.
 float densityWeight(uint kernel, float x2) {
-    if (kernel == KERNEL_CONE) return (1.0 - sqrt(x2) / 1.1) / 0.39393939;
-    if (kernel == KERNEL_GAUSS) return 0.918 * (1.0 - (1.0 - exp(-1.953 * 0.5 * x2)) / (1.0 - exp(-1.953))) / 0.5311549;
-    if (kernel == KERNEL_EPANECHNIKOV) return 2.0 * (1.0 - x2);
+    if (kernel == DENSITY_KERNEL_CONE) return (1.0 - sqrt(x2) / 1.1) / 0.39393939;
+    if (kernel == DENSITY_KERNEL_GAUSS) return 0.918 * (1.0 - (1.0 - exp(-1.953 * 0.5 * x2)) / (1.0 - exp(-1.953))) / 0.5311549;
+    if (kernel == DENSITY_KERNEL_EPANECHNIKOV) return 2.0 * (1.0 - x2);
     return 1.0;
 }
 

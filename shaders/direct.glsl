@@ -1,11 +1,11 @@
-// Direct light at a point of a diffuse surface; needs light.glsl, seen.glsl, offset.glsl, terminator.glsl and features.glsl.
+// Direct light at a point of a diffuse surface.
 #ifndef DIRECT_GLSL
 #define DIRECT_GLSL
-#include "kernel.glsl"
-#include "features.glsl"
+#include "common.glsl"
+#include "feature_checks.glsl"
 #include "light.glsl"
 #include "offset.glsl"
-#include "seen.glsl"
+#include "light_sampling.glsl"
 #include "shared_camera.h"
 #include "shared_scene.h"
 #include "terminator.glsl"
@@ -14,10 +14,10 @@
 // that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts at `origin`, on the side of
 // `normal`, which is the geometric one.
 ShadowRay sampleDirectOf(Light light, float probability, vec3 origin, uint from, vec3 normal, vec3 shading, float bulge, vec3 weight, uint column, vec2 place) {
-    SeenPoint seen = seenPoint(light, origin, place);
+    LightSample seen = sampleLight(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);
     float cosine = cosineOfArrival(w, normal, shading, bulge);
-    vec3 radiance = emittedRadiance(light, seen.point.normal, -w) * (cosine * seen.solidAngle / (PI * probability)) * weight;
+    vec3 radiance = emittedRadiance(light, seen.point.normal, -w) * (cosine * seen.inversePdf / (PI * probability)) * weight;
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
     return ShadowRay(origin, from, offsetPoint(seen.point.position, seen.point.magnitude, lightSide), radiance, column, uint(goesThrough(w, normal, bulge)));
 }

@@ -2,8 +2,8 @@
 // spheres of specular shapes. Those of lights that are remote start where they enter the scene, if no other far light hides them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "features.glsl"
+#include "common.glsl"
+#include "feature_checks.glsl"
 #include "guide.glsl"
 #include "light.glsl"
 #include "offset.glsl"
@@ -11,7 +11,7 @@
 #include "shared_paths.h"
 #include "shared_photons.h"
 #include "shared_scene.h"
-#include "targets.glsl"
+#include "projection_map.glsl"
 #include "traverse.glsl"
 
 ARGS(EmitArgs)
@@ -22,20 +22,20 @@ void main() {
     DeviceScene scene = args.scene.at[0];
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
 
-    float numbers[START_NUMBERS] = startNumbers(s);
-    float sparse = 1.0;
-    if (hasGuide && args.guide != uvec2(0u)) sparse = guide(GuideNodePtr(args.guide), numbers);
+    float numbers[PRIMARY_DIMENSIONS] = primarySample(s);
+    float inverseDensity = 1.0;
+    if (hasGuide && args.guide != uvec2(0u)) inverseDensity = guide(GuideNodePtr(args.guide), numbers);
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
-    Light light = LightPtr(scene.lights).at[chooseLight(scene, scene.lightCdf, numbers[START_LIGHT])];
+    Light light = LightPtr(scene.lights).at[chooseLight(scene, scene.lightCdf, numbers[PRIMARY_LIGHT])];
     requireLight(scene, light);
-    LightPoint point = sampleLight(light, vec2(numbers[START_PLACE], numbers[START_PLACE + 1u]));
-    if (isTwoSided(light) && numbers[START_SIDE] < 0.5) point.normal = -point.normal;
+    LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
+    if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
 
     // A direction, and the weight that makes up for a density other than cos / pi.
-    vec2 u = vec2(numbers[START_DIRECTION], numbers[START_DIRECTION + 1u]);
+    vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
     Aim aim;
-    if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[START_TARGET]);
+    if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
     else aim = aimAtLit(scene, point, u);
     vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
     if (aim.remote) {
@@ -44,8 +44,8 @@ void main() {
         origin = entered;
     }
     float weight = aim.weight;
-    if (hasGuide && args.starts != uvec2(0u)) StartPtr(args.starts).at[slot] = Start(numbers, weight, sparse, 0u, 0u, vec3(0.0));
-    weight *= sparse;
+    if (hasGuide && args.starts != uvec2(0u)) PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
+    weight *= inverseDensity;
 
     vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);
     args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);

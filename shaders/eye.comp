@@ -1,7 +1,7 @@
 // Starts one path per pixel at the camera, at a place within the pixel that differs from pass to pass (box filter).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "camera.glsl"
 #include "random.glsl"
 #include "shared_camera.h"

@@ -1,9 +1,9 @@
 // Takes one pass into the sums of a run. A sample that is not finite is counted, and black.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
-#include "pixel_sum.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
+#include "accumulate.glsl"
 #include "shared_film.h"
 #include "shared_layers.h"
 

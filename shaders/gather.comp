@@ -3,8 +3,8 @@
 // difference to a disc of half the area is half of the bias (as in Hachisuka, Jarosz & Jensen 2010, from two radii).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "density.glsl"
 #include "radius_field.glsl"
 #include "shared_camera.h"

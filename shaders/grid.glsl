@@ -6,7 +6,7 @@
 // differ in their last octant, so that none is read twice.
 #ifndef GRID_GLSL
 #define GRID_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "hash.h"
 #include "random.glsl"
 #include "shared_photons.h"

@@ -2,14 +2,14 @@
 // space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018).
 #ifndef GUIDE_GLSL
 #define GUIDE_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "random.glsl"
 #include "shared_photons.h"
 
 const float BELOW_ONE = 0.99999994;
 
 // The numbers that start a photon, uniform over the unit cube.
-float[START_NUMBERS] startNumbers(Sampler s) {
+float[PRIMARY_DIMENSIONS] primarySample(Sampler s) {
     vec2 light = sample2(s, 0u);
     vec2 place = sample2(s, 1u);
     vec2 direction = sample2(s, 2u);
@@ -18,10 +18,10 @@ float[START_NUMBERS] startNumbers(Sampler s) {
 
 // Warps uniform numbers to those of the guide's density; returns the uniform density over that. Numbers that were well distributed
 // stay so, as each half of a box keeps their order (as McCool & Harwood 1997 do for grids).
-float guide(GuideNodePtr nodes, inout float numbers[START_NUMBERS]) {
-    float low[START_NUMBERS] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    float width[START_NUMBERS] = float[](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
-    float sparse = 1.0;
+float guide(GuideNodePtr nodes, inout float numbers[PRIMARY_DIMENSIONS]) {
+    float low[PRIMARY_DIMENSIONS] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    float width[PRIMARY_DIMENSIONS] = float[](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
+    float inverseDensity = 1.0;
     GuideNode node = nodes.at[0];
     while (node.axis != NONE) {
         uint axis = node.axis;
@@ -31,11 +31,11 @@ float guide(GuideNodePtr nodes, inout float numbers[START_NUMBERS]) {
         numbers[axis] = min((upper ? x - node.lower : x) / part, BELOW_ONE);
         width[axis] *= 0.5;
         if (upper) low[axis] += width[axis];
-        sparse *= 0.5 / part;
+        inverseDensity *= 0.5 / part;
         node = nodes.at[node.child + uint(upper)];
     }
-    [[unroll]] for (uint i = 0u; i < START_NUMBERS; i++) numbers[i] = min(low[i] + width[i] * numbers[i], BELOW_ONE);
-    return sparse;
+    [[unroll]] for (uint i = 0u; i < PRIMARY_DIMENSIONS; i++) numbers[i] = min(low[i] + width[i] * numbers[i], BELOW_ONE);
+    return inverseDensity;
 }
 
 #endif

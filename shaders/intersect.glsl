@@ -1,7 +1,7 @@
 // Rays against boxes, triangles and spheres; a hit has t > 0 and t at most that of the hit so far.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "sphere.glsl"
 
 // A ray with what its tests need; `direction` need not be of unit length.

@@ -1,7 +1,7 @@
 // The cell key of each photon, and its index, for sorting.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "grid.glsl"
 #include "shared_photons.h"
 

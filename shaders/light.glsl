@@ -1,7 +1,7 @@
 // Area lights: which one, where on it, how much it sends.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "sampling.glsl"
 #include "shared_scene.h"
 
@@ -50,7 +50,7 @@ LightPoint flatLightAt(Light light, vec2 place) {
 }
 
 // A point of a light, uniform over area.
-LightPoint sampleLight(Light light, vec2 u) {
+LightPoint sampleEmissionPoint(Light light, vec2 u) {
     if (isSphere(light)) {
         vec3 n = uniformSphere(u);
         return LightPoint(light.a + light.u.x * n, abs(light.a) + light.u.x, n);

@@ -1,7 +1,7 @@
 // Mirrors and glass: Fresnel reflectance, and the one direction in which light goes on.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"

@@ -1,7 +1,7 @@
 // Origins of rays that leave a surface.
 #ifndef OFFSET_GLSL
 #define OFFSET_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 
 // How far off its surface a point may be along n: about 64 roundings of the numbers it came from.
 float roundingAlong(vec3 magnitude, vec3 n) {

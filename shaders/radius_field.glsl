@@ -2,7 +2,7 @@
 // map's radius.
 #ifndef RADIUS_FIELD_GLSL
 #define RADIUS_FIELD_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "hash.h"
 #include "random.glsl"
 #include "shared_photons.h"

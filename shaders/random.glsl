@@ -1,7 +1,7 @@
 // Owen-scrambled Sobol points (Burley 2020), a pure function of sequence, index and dimension.
 #ifndef RANDOM_GLSL
 #define RANDOM_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "hash.h"
 
 struct Sampler {

@@ -1,7 +1,7 @@
 // Points on simple domains from points of the unit square.
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 
 // The point of the unit circle at x eighths of a turn, |x| <= 1 (polynomials of Cephes, Moshier 1992). Drivers' sin and cos may
 // be wrong by 2^-11, which puts directions off by more than a gather radius and points of the disc outside it.

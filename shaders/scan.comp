@@ -1,7 +1,7 @@
 // Exclusive prefix sum of an array by one work group, with the total behind it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_sort.h"
 
 ARGS(ScanArgs)

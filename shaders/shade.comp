@@ -4,11 +4,11 @@
 // for the global map where gather rays end. The path integrator goes on and on, and counts the same paths in the same layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "direct.glsl"
-#include "features.glsl"
-#include "frame.glsl"
+#include "feature_checks.glsl"
+#include "directions.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "offset.glsl"
@@ -24,7 +24,7 @@
 
 ARGS(ShadeArgs)
 
-uint chosen() {
+uint activeIntegrator() {
     return integrator == ANY ? args.integrator : integrator;
 }
 
@@ -44,16 +44,16 @@ uint layerOf(Path path, uint layer) {
 
 // Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
 // have the direct part, and the photon integrator has the rest in its maps.
-void seeLight(uint slot, Path path, Light light, vec3 normal) {
+void addEmission(uint slot, Path path, Light light, vec3 normal) {
     uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
-    if (diffuse > 0u && (chosen() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
+    if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     addToColumns(args.samples, args.stride, layerColumn(layer), slot, path.throughput * emittedRadiance(light, normal, -path.direction));
 }
 
 // Asks for one light sample.
-bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight, Sampler s) {
+bool requestShadowRay(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight, Sampler s) {
     uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return false;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
@@ -64,16 +64,16 @@ bool askLight(DeviceScene scene, uint slot, Path path, Surface surface, vec3 nor
 }
 
 // Returns the bit of the map's queue, or none if there is no such map or nobody asked for the layer.
-uint askMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+uint queryPhotonMap(uint queue, uint slot, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return 0u;
-    float footprint = path.travelled * args.pixelAngle;
+    float footprint = path.distanceSinceDiffuse * args.pixelAngle;
     args.queries.at[slot] = Query(surface.position, normal, weight, layerColumn(layer), footprint);
     return 1u << queue;
 }
 
 // Lets light samples and gather rays start here, if anyone asks for what they find.
-void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
+void storeSplit(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
     if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
     args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags,
@@ -81,10 +81,10 @@ void split(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, flo
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
-bool goesOn(Path path) {
-    if (chosen() == INTEGRATOR_DIRECT) return false;
+bool continuesAfterDiffuse(Path path) {
+    if (activeIntegrator() == INTEGRATOR_DIRECT) return false;
     if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer;
-    return hasIndirectLayer || (chosen() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
+    return hasIndirectLayer || (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
@@ -101,7 +101,7 @@ bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, 
     return true;
 }
 
-bool scatterAtSpecular(inout Path path, Material material, Surface surface, float travelled, Sampler s) {
+bool scatterAtSpecular(inout Path path, Material material, Surface surface, float distanceSinceDiffuse, Sampler s) {
     vec2 u = bounceSample(s, 0u);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     uint run = specularRun(path.flags);
@@ -109,7 +109,7 @@ bool scatterAtSpecular(inout Path path, Material material, Surface surface, floa
     if (u.y >= survival) return false;
     uint flags = afterSpecular(path.flags) | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
-    path = Path(leave(surface, event.direction), event.direction, throughput, travelled, surface.primitive, flags);
+    path = Path(leave(surface, event.direction), event.direction, throughput, distanceSinceDiffuse, surface.primitive, flags);
     return maxComponent(throughput) > 0.0;
 }
 
@@ -122,25 +122,25 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
     bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
     vec3 weight = path.throughput * albedo;
 
-    if (chosen() == INTEGRATOR_PHOTON_MAP) {
+    if (activeIntegrator() == INTEGRATOR_PHOTON_MAP) {
         bool caustics = showsCaustics();
-        return askMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal, path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        return queryPhotonMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal, path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
     }
-    if (chosen() == INTEGRATOR_PHOTON && !first && path.travelled >= args.nearDistance)
-        return askMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
+    if (activeIntegrator() == INTEGRATOR_PHOTON && !first && path.distanceSinceDiffuse >= args.nearDistance)
+        return queryPhotonMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
 
-    bool splits = chosen() == INTEGRATOR_PHOTON && first;
+    bool splits = activeIntegrator() == INTEGRATOR_PHOTON && first;
     uint queues = 0u;
-    if (!splits && askLight(scene, slot, path, surface, normal, shading, bulge, weight, s)) queues |= 1u << QUEUE_SHADOW;
-    if (chosen() == INTEGRATOR_PHOTON && showsCaustics())
-        queues |= askMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    if (splits) split(slot, path, surface, normal, shading, bulge, weight);
-    else if (goesOn(path) && bounceDiffuse(path, surface, normal, shading, bulge, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    if (!splits && requestShadowRay(scene, slot, path, surface, normal, shading, bulge, weight, s)) queues |= 1u << QUEUE_SHADOW;
+    if (activeIntegrator() == INTEGRATOR_PHOTON && showsCaustics())
+        queues |= queryPhotonMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    if (splits) storeSplit(slot, path, surface, normal, shading, bulge, weight);
+    else if (continuesAfterDiffuse(path) && bounceDiffuse(path, surface, normal, shading, bulge, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }
 
 // Whether light that is found beyond a specular vertex has a layer to go to.
-bool seesThrough(Path path) {
+bool continuesAfterSpecular(Path path) {
     return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer;
 }
 
@@ -152,8 +152,8 @@ uint shade(uint slot) {
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
-    if (checksFeatures) require(scene, chosen() != args.integrator, false, id_integrator);
-    float travelled = path.travelled + hit.t;
+    if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
+    float distanceSinceDiffuse = path.distanceSinceDiffuse + hit.t;
     if (args.bounce == 0u) {
         if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
@@ -164,17 +164,17 @@ uint shade(uint slot) {
     }
     if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
         if (surface.bulge == 0.0 || !isDiffuse(material)) return 0u;
-        args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput, travelled, surface.primitive, path.flags & ~PATH_THROUGH);
+        args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput, distanceSinceDiffuse, surface.primitive, path.flags & ~PATH_THROUGH);
         return 1u << QUEUE_CONTINUE;
     }
-    if (surface.light != NONE && chosen() != INTEGRATOR_PHOTON_MAP)
-        seeLight(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
+    if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
+        addEmission(slot, path, LightPtr(scene.lights).at[surface.light], surface.normal);
 
     Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence);
-    path.travelled = travelled;
+    path.distanceSinceDiffuse = distanceSinceDiffuse;
     uint queues;
     if (isDiffuse(material)) queues = shadeDiffuse(scene, slot, path, surface, material.color, s);
-    else if (seesThrough(path)) queues = uint(scatterAtSpecular(path, material, surface, travelled, s)) << QUEUE_CONTINUE;
+    else if (continuesAfterSpecular(path)) queues = uint(scatterAtSpecular(path, material, surface, distanceSinceDiffuse, s)) << QUEUE_CONTINUE;
     else queues = 0u;
     if ((queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = path;
     return queues;

@@ -1,8 +1,8 @@
 // Adds each light sample that nothing hides.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "shared_camera.h"
 #include "shared_paths.h"
 #include "traverse.glsl"

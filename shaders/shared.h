@@ -46,10 +46,10 @@ const uint INTEGRATOR_DIRECT = 2u;
 const uint INTEGRATOR_PHOTON_MAP = 3u;
 const uint INTEGRATOR_LIGHT = 4u;
 
-const uint KERNEL_CONSTANT = 0u;
-const uint KERNEL_CONE = 1u;
-const uint KERNEL_GAUSS = 2u;
-const uint KERNEL_EPANECHNIKOV = 3u;
+const uint DENSITY_KERNEL_CONSTANT = 0u;
+const uint DENSITY_KERNEL_CONE = 1u;
+const uint DENSITY_KERNEL_GAUSS = 2u;
+const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
 
 // id, type, name, value when nothing is known of the scene: the general program
 #define FEATURES(X)                                                                                                    \
@@ -84,7 +84,7 @@ const uint KERNEL_EPANECHNIKOV = 3u;
     X(28, bool, hasNoise, true)                                                                                        \
     X(29, bool, hasDiffuse, true)                                                                                      \
     X(30, bool, hasBias, true)                                                                                         \
-    X(31, bool, checksFeatures, false) /* kernels report what they meet and are without, see features.glsl */          \
+    X(31, bool, checksFeatures, false) /* kernels report what they meet and are without, see feature_checks.glsl */          \
     X(32, uint, hasFarLights, 2) /* 1: only one, that nothing hides */                                                 \
     X(33, bool, hasGuide, true)                                                                                        \
     X(34, bool, hasSmoothDiffuse, true)                                                                                \

@@ -11,7 +11,7 @@ SHARED_BEGIN
 // albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface), and an estimate of the
 // bias of beauty. Sums over a run of
 // passes have the squared deviations of beauty between batches of passes as well, what rounding took from the sums of the layers,
-// see pixel_sum.glsl, and the square of the luminance of the bias.
+// see accumulate.glsl, and the square of the luminance of the bias.
 #define COLUMNS(X)                                                                                                     \
     X(COLUMN_EMISSION, 0u)                                                                                             \
     X(COLUMN_DIRECT, COLUMN_EMISSION + 3u * uint(hasEmissionLayer))                                                    \
@@ -24,10 +24,10 @@ SHARED_BEGIN
     X(COLUMN_COVERED, COLUMN_DEPTH + uint(hasDepth))                                                                   \
     X(COLUMN_BIAS, COLUMN_COVERED + uint(hasDepth))                                                                    \
     X(SAMPLE_COLUMNS, COLUMN_BIAS + 3u * uint(hasBias))                                                                \
-    X(COLUMN_FINE, SAMPLE_COLUMNS)                                                                                     \
-    X(COLUMN_COARSE, COLUMN_FINE + 3u * uint(hasNoise))                                                                \
-    X(COLUMN_REST, COLUMN_COARSE + 3u * uint(hasNoise))                                                                \
-    X(COLUMN_SQUARE, COLUMN_REST + 3u * uint(hasNoise))                                                                \
+    X(COLUMN_SMALL_BATCHES, SAMPLE_COLUMNS)                                                                                     \
+    X(COLUMN_LARGE_BATCHES, COLUMN_SMALL_BATCHES + 3u * uint(hasNoise))                                                                \
+    X(COLUMN_COMPENSATION, COLUMN_LARGE_BATCHES + 3u * uint(hasNoise))                                                                \
+    X(COLUMN_SQUARE, COLUMN_COMPENSATION + 3u * uint(hasNoise))                                                                \
     X(SUM_COLUMNS, COLUMN_SQUARE + uint(hasBias))
 
 #ifdef __cplusplus
@@ -54,7 +54,7 @@ struct PassRange {
     uint end;
 };
 
-/// How the deviations of two adjacent runs of passes make those of both, see pixel_sum.glsl.
+/// How the deviations of two adjacent runs of passes make those of both, see accumulate.glsl.
 struct JoinWeights {
     float perPass;      // 1 / passes of the first run, or 0 if it has none
     uint times;         // passes of the first over those of the second: a whole number

@@ -6,9 +6,9 @@
 
 SHARED_BEGIN
 
-const uint MARK_WORDS = 1u << 18; // of a set of cells, see marks.glsl; one more has a bit for each level in use
+const uint VISIBLE_CELL_WORDS = 1u << 18; // of a set of cells, see visible_cells.glsl; one more has a bit for each level in use
 
-struct MarkArgs {
+struct MarkVisibleArgs {
     PhotonMap map;
     PTR(Query) queries;
     PTR(Queue) queue;
@@ -18,7 +18,7 @@ struct MarkArgs {
     float reach;     // part of a query's footprint that it marks, if that is more than the map's radius there
 };
 
-struct WeighArgs {
+struct LightContributionArgs {
     PTR(DeviceScene) scene;
     PTR(Split) splits;
     PTR(float) values; // [split][light of it]: luminance that it brings
@@ -28,11 +28,11 @@ struct WeighArgs {
     uint seed;
 };
 
-struct UsefulArgs {
+struct PhotonContributionArgs {
     PTR(Photon) photons;
     PTR(uint) offsets; // of the paths' photons
     PTR(uint) marks;
-    PTR(Start) starts;
+    PTR(PrimarySample) starts;
     uint count; // of paths
     float cellWidth;
 };

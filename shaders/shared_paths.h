@@ -27,7 +27,7 @@ struct Path {
     vec3 origin;
     vec3 direction;
     vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
-    float travelled; // since the last diffuse vertex
+    float distanceSinceDiffuse; // since the last diffuse vertex
     uint from;       // primitive that the ray leaves, or NONE
     uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
 };
@@ -48,7 +48,7 @@ BUFFER(Hit)
 
 /// What the host reads after a step: counters.
 struct Status {
-    uint arrivals;  // photons for the map, whether there was room or not
+    uint deposits;  // photons for the map, whether there was room or not
     uint absorbed;  // photons
     uint escaped;   // photons that left the scene or missed what they were aimed at
     uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
@@ -72,7 +72,7 @@ struct TraceArgs {
     PTR(uint) list;
 };
 
-struct TallyArgs {
+struct CompactCountArgs {
     PTR(Queue) queue;
     PTR(uint) flags;
     PTR(uint) sums; // [kind][block]

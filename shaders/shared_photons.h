@@ -14,21 +14,21 @@ struct Photon {
 };
 BUFFER(Photon)
 
-/// A photon of a wave in the order in which it happened to arrive, and its place: the path's how-manieth.
-struct Arrival {
+/// A deposit in the order of arrival; path and number of the deposit give its place in the map.
+struct PhotonDeposit {
     Photon photon;
     uint slot;
     uint index;
 };
-BUFFER(Arrival)
+BUFFER(PhotonDeposit)
 
 // The numbers in [0, 1) that start a photon: light, side, two for the place on the light, two for the direction, target.
-const uint START_NUMBERS = 7u;
-const uint START_LIGHT = 0u;
-const uint START_SIDE = 1u;
-const uint START_PLACE = 2u;
-const uint START_DIRECTION = 4u;
-const uint START_TARGET = 6u;
+const uint PRIMARY_DIMENSIONS = 7u;
+const uint PRIMARY_LIGHT = 0u;
+const uint PRIMARY_SIDE = 1u;
+const uint PRIMARY_POSITION = 2u;
+const uint PRIMARY_DIRECTION = 4u;
+const uint PRIMARY_TARGET = 6u;
 
 /// A box of such numbers, cut in the middle of an axis into children `child` (lower numbers) and `child` + 1.
 struct GuideNode {
@@ -39,25 +39,25 @@ struct GuideNode {
 BUFFER(GuideNode)
 
 /// How a photon was started, and how useful it was.
-struct Start {
-    float numbers[START_NUMBERS];
+struct PrimarySample {
+    float numbers[PRIMARY_DIMENSIONS];
     float weight;  // of its flux, had the numbers been uniform
-    float sparse;  // uniform density over that of the numbers
+    float inverseDensity;  // uniform density over that of the numbers
     uint stored;   // how often it was stored,
     uint seen;     // and how often where the eye looks,
     vec3 place;    // there first
 };
-BUFFER(Start)
+BUFFER(PrimarySample)
 
 struct EmitArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(uint) list;
     PTR(uint) flags;
-    PTR(uint) counts; // of arrivals, by path
+    PTR(uint) counts; // of deposits, by path
     PTR(Status) status;
     ADDRESS(GuideNode) guide; // 0: the numbers are uniform
-    ADDRESS(Start) starts;    // 0: nobody asks
+    ADDRESS(PrimarySample) starts;    // 0: nobody asks
     uint firstPhoton;
     uint count;
     uint pass;
@@ -69,13 +69,13 @@ struct ScatterArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
     PTR(Hit) hits;
-    PTR(Arrival) arrivals;
-    PTR(uint) counts; // of arrivals, by path
+    PTR(PhotonDeposit) deposits;
+    PTR(uint) counts; // of deposits, by path
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags; // by place in the list
     PTR(Status) status;
-    uint capacity; // of arrivals
+    uint capacity; // of deposits
     uint firstPhoton;
     uint pass;
     uint seed;
@@ -83,13 +83,13 @@ struct ScatterArgs {
     uint caustic;
 };
 
-struct PlaceArgs {
-    PTR(Arrival) arrivals;
-    PTR(uint) offsets; // of the wave's paths
+struct StorePhotonsArgs {
+    PTR(PhotonDeposit) deposits;
+    PTR(uint) offsets; // of the batch's paths
     PTR(Photon) photons;
     PTR(Status) status;
-    uint first; // place of the wave's first photon
-    uint count; // of arrivals
+    uint first; // place of the batch's first photon
+    uint count; // of deposits
 };
 
 /// Photons in the order of their cells' keys, where each key starts, and how far to gather.
@@ -112,7 +112,7 @@ struct PhotonMap {
 #ifdef __cplusplus
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");
 #endif
-const uint MOST_LEVELS = 4u;
+const uint MAX_LEVELS = 4u;
 const uint FIELD_CELLS = 1u << 16, NARROW_FIELD_CELLS = 1u << 22; // of a map, of one of narrow discs alone: hardly two share one
 const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
 
@@ -123,7 +123,7 @@ struct WantedRadius {
 };
 BUFFER(WantedRadius)
 
-struct PilotArgs {
+struct MeasureRadiusArgs {
     PhotonMap map;
     PTR(uint) sums; // by cell of the field: negative logarithms, photons; then photons whose discs cannot be as narrow as they should
     PTR(WantedRadius) wanted; // in a partial map, in place of sums
@@ -142,7 +142,7 @@ struct KeysArgs {
     uint cellMask;
 };
 
-struct ArrangeArgs {
+struct ReorderPhotonsArgs {
     PTR(Photon) photons;
     PTR(uint) order;
     PTR(Photon) arranged;
@@ -152,27 +152,27 @@ struct ArrangeArgs {
 struct CellsArgs {
     PTR(uint) keys;
     PTR(uint) cells;
-    PTR(uint) crowded; // becomes 1 if a cell has more photons than MOST_PER_CELL
+    PTR(uint) overfull; // becomes 1 if a cell has more photons than MAX_PHOTONS_PER_CELL
     uint count;
     uint cellMask;
 };
 
-const uint MOST_PER_CELL = 1024u; // photons that a gather reads of a cell at most, see crowd.glsl
+const uint MAX_PHOTONS_PER_CELL = 1024u; // photons that a gather reads of a cell at most, see cell_thinning.glsl
 
-struct CrowdArgs {
+struct MarkKeptArgs {
     PTR(uint) keys;
     PTR(uint) cells;
-    PTR(uint) stays; // 1 for those that do
+    PTR(uint) kept; // 1 for those that do
     uint count;
     uint pass;
 };
 
-struct ThinArgs {
+struct ThinCellsArgs {
     PTR(Photon) photons;
     PTR(uint) order;
     PTR(uint) keys;
     PTR(uint) cells;
-    PTR(uint) places; // prefix sums of CrowdArgs.stays
+    PTR(uint) places; // prefix sums of MarkKeptArgs.kept
     PTR(Photon) arranged;
     PTR(uint) thinnedKeys;
     uint count;

@@ -24,7 +24,7 @@ struct SplatArgs {
     float photonFlux; // W per photon emitted
 };
 
-struct CollectArgs {
+struct SumSplatsArgs {
     PTR(Splat) splats;
     PTR(uint) pixels;   // sorted
     PTR(uint) order;    // of splats, by pixel

@@ -1,7 +1,7 @@
 // Radix sort, first step: how often each digit occurs in each block of keys.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_sort.h"
 
 ARGS(SortCountArgs)

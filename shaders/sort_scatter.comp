@@ -2,7 +2,7 @@
 // is a mask of 64 bits, and the rank among equal digits is the number of bits below one's own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_sort.h"
 
 ARGS(SortScatterArgs)

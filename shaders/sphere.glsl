@@ -1,7 +1,7 @@
 // The one measure of spheres that rays and surfaces share.
 #ifndef SPHERE_GLSL
 #define SPHERE_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 
 // A point's squared distance from a sphere's centre less the squared radius, from the sphere's point next to the origin of
 // coordinates: for large spheres, whose centres are far away, centre and radius alone would leave no digits.

@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "camera.glsl"
-#include "features.glsl"
-#include "frame.glsl"
+#include "feature_checks.glsl"
+#include "directions.glsl"
 #include "material.glsl"
 #include "offset.glsl"
 #include "shared_paths.h"

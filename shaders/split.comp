@@ -2,10 +2,10 @@
 // normal. There are several of both for a path from the eye (splitting, Arvo & Kirk 1990), whose own part is traced once for all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "direct.glsl"
-#include "frame.glsl"
+#include "directions.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
 #include "shared_camera.h"

@@ -1,7 +1,7 @@
 // The surface at a hit: where it is, how it is turned, what it is made of.
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "offset.glsl"
 #include "shared_paths.h"
 #include "shared_scene.h"
@@ -40,7 +40,7 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
     return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive, bulge);
 }
 
-// The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t; needs sphere.glsl.
+// The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t.
 Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
     vec3 f = along - p.a;
     float distance = length(f);

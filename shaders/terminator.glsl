@@ -5,7 +5,7 @@
 // 5.3). `bulge` is 0 for flat shading, positive where the surface bulges on the side of `normal`, negative where it is hollow.
 #ifndef TERMINATOR_GLSL
 #define TERMINATOR_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 
 // The cosine with which light from direction w counts.
 float cosineOfArrival(vec3 w, vec3 normal, vec3 shading, float bulge) {

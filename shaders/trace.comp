@@ -1,7 +1,7 @@
 // Finds the closest hit of each path in a queue: photons, eye rays and gather rays alike.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_paths.h"
 #include "traverse.glsl"
 

@@ -1,7 +1,7 @@
 // The closest hit, or any hit, of a ray with the scene.
 #ifndef TRAVERSE_GLSL
 #define TRAVERSE_GLSL
-#include "kernel.glsl"
+#include "common.glsl"
 #include "intersect.glsl"
 #include "offset.glsl"
 #include "shared_camera.h"

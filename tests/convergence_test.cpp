@@ -76,21 +76,21 @@ TEST(Convergence, OfALampInAMirror) {
     const Values truth = floorTruth(scene, settings.size);
     const double mean = std::accumulate(truth.begin(), truth.end(), 0.0) / double(truth.size());
 
-    const Curve shrinking = converge("mirror, shrinking discs", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
+    const Curve shrinking = converge("mirror, shrinking discs", scene, settings, LAYER_CAUSTIC, truth, 256, 3);
     EXPECT_NEAR(shrinking.slope(8), -1.0 / 3, 0.08);
     EXPECT_LT(shrinking.errors.back(), 0.02 * mean);
 
     settings.alpha = 1;
-    const Curve fixed = converge("mirror, fixed discs", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
+    const Curve fixed = converge("mirror, fixed discs", scene, settings, LAYER_CAUSTIC, truth, 256, 3);
     EXPECT_NEAR(fixed.slope(64), 0, 0.12);
     EXPECT_GT(fixed.errors.back(), 1.5 * shrinking.errors.back());
 
     settings.integrator = INTEGRATOR_PATH;
-    const Curve path = converge("mirror, path traced", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
+    const Curve path = converge("mirror, path traced", scene, settings, LAYER_CAUSTIC, truth, 256, 3);
     expectPathTraced(path.slope(8));
 
     settings.integrator = INTEGRATOR_LIGHT;
-    const Curve light = converge("mirror, light traced", scene, settings, LAYER_CAUSTIC, truth, 512, 3);
+    const Curve light = converge("mirror, light traced", scene, settings, LAYER_CAUSTIC, truth, 256, 3);
     EXPECT_NEAR(light.slope(8), -0.5, 0.05); // the points of passes are independent
     EXPECT_LT(light.errors.back(), 0.03 * mean);
     settings.causticPhotons = 100'000;

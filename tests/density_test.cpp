@@ -9,7 +9,7 @@
 namespace vkpm {
 namespace {
 
-const std::vector<uint> kernels{KERNEL_CONSTANT, KERNEL_CONE, KERNEL_GAUSS, KERNEL_EPANECHNIKOV};
+const std::vector<uint> kernels{DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS, DENSITY_KERNEL_EPANECHNIKOV};
 const std::vector<double> varianceFactors{1, 1.295858, 1.129309, 4.0 / 3}; // over the disc, of the weights
 
 // Over the disc, squared distance is uniform.

@@ -1,4 +1,4 @@
-/// The same bits whatever runs how: driver threads, lanes, sizes of waves, repetitions.
+/// The same bits whatever runs how: driver threads, lanes, sizes of batches, repetitions.
 #include "output/exr.h"
 #include "program.h"
 #include "render_support.h"
@@ -50,26 +50,26 @@ TEST_F(Determinism, GuidesAreTheSameOnAnyLanes) {
         expectSameBits(renderWith("photon", environment, "pool"), plain, environment);
 }
 
-std::vector<Pixel> renderInWaves(const Scene& scene, uint integrator, WaveSizes waves) {
+std::vector<Pixel> renderInBatches(const Scene& scene, uint integrator, BatchSizes batches) {
     Settings settings = scene.settings;
     settings.integrator = integrator;
     settings.size = {40, 32};
     settings.photons = settings.causticPhotons = 3000;
-    Renderer renderer(testGpu(), scene, settings, waves);
+    Renderer renderer(testGpu(), scene, settings, batches);
     for (const uint pass : {0u, 1u}) renderer.renderPass(pass);
     return renderer.film.download();
 }
 
-TEST(Waves, SizesDoNotMatter) {
+TEST(Batches, SizesDoNotMatter) {
     for (const char* name : {"box", "ring", "pool"})
         for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_LIGHT}) {
             const Scene scene = shippedScene(name);
-            const std::vector<Pixel> whole = renderInWaves(scene, integrator, {});
+            const std::vector<Pixel> whole = renderInBatches(scene, integrator, {});
             if (integrator == INTEGRATOR_PHOTON) { EXPECT_GT(layerMean(whole, LAYER_CAUSTIC) + layerMean(whole, LAYER_SPECULAR), 0); }
-            for (const WaveSizes waves : {WaveSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
-                const std::vector<Pixel> parts = renderInWaves(scene, integrator, waves);
+            for (const BatchSizes batches : {BatchSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
+                const std::vector<Pixel> parts = renderInBatches(scene, integrator, batches);
                 EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
-                    << name << ", integrator " << integrator << ", waves of " << waves.photons << " photons and " << waves.camera << " paths";
+                    << name << ", integrator " << integrator << ", batches of " << batches.photons << " photons and " << batches.camera << " paths";
             }
         }
 }

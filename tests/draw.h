@@ -12,7 +12,8 @@ inline std::uint32_t drawSeed() {
     return seed ? std::uint32_t(std::stoul(seed)) : 1;
 }
 
-/// Whether all of a set is wanted (tools/test --nightly).
+/// Whether more of a set is wanted than each run has time for (tools/test --all), and all of it (tools/test --nightly).
+inline bool isThorough() { return std::getenv("VKPM_THOROUGH") != nullptr; }
 inline bool isNightly() { return std::getenv("VKPM_NIGHTLY") != nullptr; }
 
 } // namespace vkpm

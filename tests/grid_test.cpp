@@ -150,7 +150,7 @@ TEST(Grid, PhotonsOfOneKey) {
     EXPECT_GT(expectNeighbours(photons, queries, onDevice), 200);
 }
 
-// ---- Thinning of crowded cells ------------------------------------------------------------------------------------
+// ---- Thinning of overfull cells ------------------------------------------------------------------------------------
 
 // Flux of all photons that a map keeps, and how many these are; each of them had a flux of 1.
 struct Kept {
@@ -180,7 +180,7 @@ Kept keptIn(const PhotonMap& onDevice) {
 // stay carry the flux of whole numbers of others; the mean place as exactly as a random choice among runs allows.
 TEST(Grid, CrowdedCellsAreThinned) {
     Random random(13);
-    for (const uint count : {MOST_PER_CELL + 1, MOST_PER_CELL * 5 / 4, 2 * MOST_PER_CELL - 1, 5000u, 65'537u, 1'000'000u}) {
+    for (const uint count : {MAX_PHOTONS_PER_CELL + 1, MAX_PHOTONS_PER_CELL * 5 / 4, 2 * MAX_PHOTONS_PER_CELL - 1, 5000u, 65'537u, 1'000'000u}) {
         std::vector<Photon> photons(count);
         for (Photon& photon : photons) photon = {vec3{random.between(0, 0.5f), random.between(0, 0.5f), 0}, vec3{1}, normalUp};
         Buffer<Photon> buffer(testGpu(), "photons", photons);
@@ -188,33 +188,33 @@ TEST(Grid, CrowdedCellsAreThinned) {
         Mean centre;
         for (uint pass = 0; pass < 16; pass++) {
             const Kept kept = keptIn(grid.build(buffer, count, 1, 1, 0, pass));
-            ASSERT_EQ(kept.most, MOST_PER_CELL) << count;
+            ASSERT_EQ(kept.most, MAX_PHOTONS_PER_CELL) << count;
             ASSERT_EQ(kept.flux, count);
             centre.add(kept.centre);
         }
         double truth = 0;
         for (const Photon& photon : photons) truth += double{photon.position.x} / count;
-        EXPECT_NEAR(centre.mean(), truth, 5 * 0.5 / std::sqrt(12 * MOST_PER_CELL * 16)) << count;
+        EXPECT_NEAR(centre.mean(), truth, 5 * 0.5 / std::sqrt(12 * MAX_PHOTONS_PER_CELL * 16)) << count;
         EXPECT_EQ(keptIn(grid.build(buffer, count, 1, 1, 0)).most, count) << "thinned though nobody asked";
     }
 }
 
-// Cells that are not crowded keep all of their photons beside one that is.
+// Cells that are not overfull keep all of their photons beside one that is.
 TEST(Grid, OthersStayAsTheyAre) {
     Random random(14);
     std::vector<vec3> positions;
     for (int i = 0; i < 20'000; i++) positions.push_back({random.between(-30, 30), random.between(-30, 30), 0});
     const std::vector<Query> queries{queryAt({10, 10, 0}), queryAt({-20, 5, 0}), queryAt({3, -17, 0})};
     std::vector<vec3> expected;
-    for (const bool crowded : {false, true}) {
-        const uint more = crowded ? 50'000 : 0;
+    for (const bool overfull : {false, true}) {
+        const uint more = overfull ? 50'000 : 0;
         for (uint i = 0; i < more; i++) positions.push_back({random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f), 0});
         const auto photons = photonsAt(positions);
         Buffer<Photon> buffer(testGpu(), "photons", photons);
         PhotonGrid grid(testGpu(), "test");
         const PhotonMap built = grid.build(buffer, static_cast<uint>(photons.size()), 1, 1, 1, 5);
         const auto found = map<vec3>("estimate_within", queries, {}, {.photons = built});
-        if (crowded) {
+        if (overfull) {
             EXPECT_EQ(found, expected);
         }
         expected = found;

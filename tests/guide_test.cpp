@@ -9,24 +9,24 @@
 namespace vkpm {
 namespace {
 
-using Axes = std::array<bool, START_NUMBERS>;
+using Axes = std::array<bool, PRIMARY_DIMENSIONS>;
 const Axes allAxes{true, true, true, true, true, true, true};
 
 /// Starts with uniform numbers; what is useful and what it weighs, by number.
-using Use = std::function<float(const Start&)>; // weight, or 0 if it is not seen
+using Use = std::function<float(const PrimarySample&)>; // weight, or 0 if it is not seen
 
-std::vector<Start> uniformStarts(uint count, uint seed) {
+std::vector<PrimarySample> uniformStarts(uint count, uint seed) {
     Random random(seed);
-    std::vector<Start> starts(count);
-    for (Start& start : starts) {
+    std::vector<PrimarySample> starts(count);
+    for (PrimarySample& start : starts) {
         for (float& number : start.numbers) number = random.unit();
-        start.sparse = 1;
+        start.inverseDensity = 1;
     }
     return starts;
 }
 
-std::vector<Start> judged(std::vector<Start> starts, const Use& use) {
-    for (Start& start : starts) {
+std::vector<PrimarySample> judged(std::vector<PrimarySample> starts, const Use& use) {
+    for (PrimarySample& start : starts) {
         const float weight = use(start);
         start.weight = weight > 0 ? weight : 1;
         start.seen = weight > 0;
@@ -35,8 +35,8 @@ std::vector<Start> judged(std::vector<Start> starts, const Use& use) {
     return starts;
 }
 
-std::vector<Start> guided(const std::vector<GuideNode>& nodes, const std::vector<Start>& uniform) {
-    const Buffer<Start> starts(testGpu(), "starts", uniform);
+std::vector<PrimarySample> guided(const std::vector<GuideNode>& nodes, const std::vector<PrimarySample>& uniform) {
+    const Buffer<PrimarySample> starts(testGpu(), "starts", uniform);
     const Buffer<GuideNode> guide(testGpu(), "guide", nodes);
     const Kernel<GuideStartArgs> kernel(testGpu(), "guide_start");
     Recording recording(testGpu());
@@ -46,11 +46,11 @@ std::vector<Start> guided(const std::vector<GuideNode>& nodes, const std::vector
 }
 
 struct LeafBox {
-    std::array<double, START_NUMBERS> low{}, width{1, 1, 1, 1, 1, 1, 1};
+    std::array<double, PRIMARY_DIMENSIONS> low{}, width{1, 1, 1, 1, 1, 1, 1};
     double probability = 1, volume = 1;
 
-    bool holds(const Start& start) const {
-        for (uint i = 0; i < START_NUMBERS; i++)
+    bool holds(const PrimarySample& start) const {
+        for (uint i = 0; i < PRIMARY_DIMENSIONS; i++)
             if (double(start.numbers[i]) < low[i] || double(start.numbers[i]) >= low[i] + width[i]) return false;
         return true;
     }
@@ -80,16 +80,16 @@ const std::vector<GuideNode> byHand{{4, 0.9f, 1}, {0, 0.3f, 3}, {6, 0.999f, 5}, 
 
 TEST(Guide, NumbersHaveTheDensityOfTheTree) {
     const uint count = 1u << 18;
-    const std::vector<Start> starts = guided(byHand, uniformStarts(count, 1));
+    const std::vector<PrimarySample> starts = guided(byHand, uniformStarts(count, 1));
     double all = 0;
     for (const LeafBox& leaf : leavesOf(byHand)) {
         Mean mean, place;
         uint held = 0;
-        for (const Start& start : starts) {
+        for (const PrimarySample& start : starts) {
             if (!leaf.holds(start)) continue;
             held++;
-            mean.add(double(start.sparse) / (leaf.volume / leaf.probability));
-            for (uint i = 0; i < START_NUMBERS; i++) place.add((double(start.numbers[i]) - leaf.low[i]) / leaf.width[i]);
+            mean.add(double(start.inverseDensity) / (leaf.volume / leaf.probability));
+            for (uint i = 0; i < PRIMARY_DIMENSIONS; i++) place.add((double(start.numbers[i]) - leaf.low[i]) / leaf.width[i]);
         }
         const double expected = count * leaf.probability;
         EXPECT_NEAR(held, expected, 5 * std::sqrt(expected * (1 - leaf.probability)));
@@ -102,48 +102,48 @@ TEST(Guide, NumbersHaveTheDensityOfTheTree) {
 
 // What is evenly spread along an axis stays in order, and in each leaf evenly spread.
 TEST(Guide, EvenlySpreadNumbersStaySo) {
-    std::vector<Start> line(1024);
+    std::vector<PrimarySample> line(1024);
     for (uint i = 0; i < line.size(); i++) {
         std::ranges::fill(line[i].numbers, 0.25f);
         line[i].numbers[4] = (float(i) + 0.5f) / float(line.size());
     }
     const std::vector<GuideNode> nodes{{4, 0.75f, 1}, {4, 0.125f, 3}, {NONE, 0, 0}, {NONE, 0, 0}, {NONE, 0, 0}};
-    const std::vector<Start> starts = guided(nodes, line);
+    const std::vector<PrimarySample> starts = guided(nodes, line);
     for (uint i = 1; i < starts.size(); i++) {
         const float step = starts[i].numbers[4] - starts[i - 1].numbers[4];
-        ASSERT_NEAR(step, (starts[i].sparse + starts[i - 1].sparse) / 2 / float(line.size()), 1e-5) << i;
+        ASSERT_NEAR(step, (starts[i].inverseDensity + starts[i - 1].inverseDensity) / 2 / float(line.size()), 1e-5) << i;
         ASSERT_EQ(starts[i].numbers[3], 0.25f);
     }
 }
 
 // The largest number below one stays below one.
 TEST(Guide, EndsOfTheUnitCube) {
-    std::vector<Start> ends(2);
+    std::vector<PrimarySample> ends(2);
     std::ranges::fill(ends[1].numbers, 1 - 0x1p-24f);
-    for (const Start& start : guided(byHand, ends))
+    for (const PrimarySample& start : guided(byHand, ends))
         for (const float number : start.numbers) EXPECT_TRUE(number >= 0 && number < 1) << number;
 }
 
 GuideTree learned(const Use& use, uint count = 1u << 15, const Axes& axes = allAxes) { return guideTree(judged(uniformStarts(count, 3), use), axes); }
 
 TEST(Guide, LearnsABox) {
-    const GuideTree tree = learned([](const Start& s) { return s.numbers[4] >= 0.25f && s.numbers[4] < 0.5f && s.numbers[6] >= 0.5f ? 1.0f : 0.0f; });
+    const GuideTree tree = learned([](const PrimarySample& s) { return s.numbers[4] >= 0.25f && s.numbers[4] < 0.5f && s.numbers[6] >= 0.5f ? 1.0f : 0.0f; });
     EXPECT_NEAR(tree.gain, 8, 1);
     // Halves of a box in the middle are alike: the first cuts along either axis gain nothing.
-    const GuideTree middle = learned([](const Start& s) { return std::abs(s.numbers[4] - 0.5f) < 0.25f && std::abs(s.numbers[5] - 0.5f) < 0.25f ? 1.0f : 0.0f; });
+    const GuideTree middle = learned([](const PrimarySample& s) { return std::abs(s.numbers[4] - 0.5f) < 0.25f && std::abs(s.numbers[5] - 0.5f) < 0.25f ? 1.0f : 0.0f; });
     EXPECT_NEAR(middle.gain, 4, 0.6);
 }
 
 TEST(Guide, AllOrNothingNeedsNoTree) {
-    EXPECT_EQ(learned([](const Start&) { return 1.0f; }).nodes.size(), 1u);
-    EXPECT_EQ(learned([](const Start&) { return 0.0f; }).nodes.size(), 1u);
-    EXPECT_EQ(learned([](const Start&) { return 0.0f; }).gain, 1);
+    EXPECT_EQ(learned([](const PrimarySample&) { return 1.0f; }).nodes.size(), 1u);
+    EXPECT_EQ(learned([](const PrimarySample&) { return 0.0f; }).nodes.size(), 1u);
+    EXPECT_EQ(learned([](const PrimarySample&) { return 0.0f; }).gain, 1);
     EXPECT_EQ(guideTree({}, allAxes).nodes.size(), 1u);
 }
 
 // As many as the root of the mean square: twice as heavy, twice as many.
 TEST(Guide, HeavyPhotonsAreMore) {
-    const GuideTree tree = learned([](const Start& s) { return s.numbers[2] < 0.5f ? 2.0f : 1.0f; });
+    const GuideTree tree = learned([](const PrimarySample& s) { return s.numbers[2] < 0.5f ? 2.0f : 1.0f; });
     ASSERT_EQ(tree.nodes.size(), 3u);
     EXPECT_EQ(tree.nodes[0].axis, 2u);
     EXPECT_NEAR(tree.nodes[0].lower, 2.0 / 3, 1e-3);
@@ -152,18 +152,18 @@ TEST(Guide, HeavyPhotonsAreMore) {
 
 // Photons that cost nine times as much are a third as many, if all are seen; what costs little is not worth sparing.
 TEST(Guide, CheapPhotonsAreMore) {
-    const auto start = [](const Start& s) { return s.numbers[3] < 0.5f; };
-    std::vector<Start> starts = judged(uniformStarts(1u << 15, 4), [](const Start&) { return 1.0f; });
-    for (Start& s : starts) s.stored = start(s) ? 13 : 1; // 27 and 3
+    const auto start = [](const PrimarySample& s) { return s.numbers[3] < 0.5f; };
+    std::vector<PrimarySample> starts = judged(uniformStarts(1u << 15, 4), [](const PrimarySample&) { return 1.0f; });
+    for (PrimarySample& s : starts) s.stored = start(s) ? 13 : 1; // 27 and 3
     const GuideTree tree = guideTree(starts, allAxes);
     ASSERT_EQ(tree.nodes.size(), 3u);
     EXPECT_EQ(tree.nodes[0].axis, 3u);
     EXPECT_NEAR(tree.nodes[0].lower, 0.25, 1e-3);
     EXPECT_NEAR(tree.gain, 1 * 15 / ((std::sqrt(27) + std::sqrt(3)) / 2 * (std::sqrt(27) + std::sqrt(3)) / 2), 1e-2);
 
-    std::vector<Start> half = judged(uniformStarts(1u << 15, 4), [&](const Start& s) { return start(s) ? 1.0f : 0.0f; });
+    std::vector<PrimarySample> half = judged(uniformStarts(1u << 15, 4), [&](const PrimarySample& s) { return start(s) ? 1.0f : 0.0f; });
     const double dear = guideTree(half, allAxes).gain;
-    for (Start& s : half) s.stored = start(s);
+    for (PrimarySample& s : half) s.stored = start(s);
     const GuideTree cheap = guideTree(half, allAxes);
     EXPECT_NEAR(dear, 2, 0.1);
     EXPECT_NEAR(cheap.gain, 4.0 / 3, 0.1); // (1 / 2) (4 / 2) / (sqrt(3) / 2)^2
@@ -173,7 +173,7 @@ TEST(Guide, CheapPhotonsAreMore) {
 TEST(Guide, OnlyAxesThatMatterAreCut) {
     Axes axes = allAxes;
     axes[0] = axes[6] = false;
-    const auto use = [](const Start& s) { return s.numbers[0] < 0.5f && s.numbers[4] < 0.25f ? 1.0f : 0.0f; };
+    const auto use = [](const PrimarySample& s) { return s.numbers[0] < 0.5f && s.numbers[4] < 0.25f ? 1.0f : 0.0f; };
     for (const GuideNode& node : learned(use, 1u << 15, axes).nodes) EXPECT_TRUE(node.axis == NONE || axes[node.axis]);
     EXPECT_GT(learned(use).gain, 6);
     EXPECT_LT(learned(use, 1u << 15, axes).gain, 5);
@@ -181,7 +181,7 @@ TEST(Guide, OnlyAxesThatMatterAreCut) {
 
 // Photons that were guided before say the same of the useful ones as uniform ones do.
 TEST(Guide, LearnsFromGuidedPhotons) {
-    const Use use = [](const Start& s) { return s.numbers[4] < 0.25f && s.numbers[0] < 0.5f ? 1.0f : 0.0f; };
+    const Use use = [](const PrimarySample& s) { return s.numbers[4] < 0.25f && s.numbers[0] < 0.5f ? 1.0f : 0.0f; };
     const GuideTree uniform = learned(use, 1u << 16);
     const GuideTree again = guideTree(judged(guided(byHand, uniformStarts(1u << 16, 9)), use), allAxes);
     EXPECT_NEAR(again.gain / uniform.gain, 1, 0.15);
@@ -190,16 +190,16 @@ TEST(Guide, LearnsFromGuidedPhotons) {
 
 // One useful photon of two thousand: rounds find what it has in common with others.
 TEST(Guide, RareOnesAreFoundInRounds) {
-    const Use use = [](const Start& s) { return s.numbers[4] < 1 / 64.0f && s.numbers[5] < 1 / 32.0f ? 1.0f : 0.0f; };
-    std::vector<Start> all = judged(uniformStarts(1u << 15, 5), use);
+    const Use use = [](const PrimarySample& s) { return s.numbers[4] < 1 / 64.0f && s.numbers[5] < 1 / 32.0f ? 1.0f : 0.0f; };
+    std::vector<PrimarySample> all = judged(uniformStarts(1u << 15, 5), use);
     GuideTree tree = guideTree(all, allAxes);
     for (uint round = 0; round < 2; round++) {
-        const std::vector<Start> more = judged(guided(tree.nodes, uniformStarts(1u << 15, 6 + round)), use);
+        const std::vector<PrimarySample> more = judged(guided(tree.nodes, uniformStarts(1u << 15, 6 + round)), use);
         all.insert(all.end(), more.begin(), more.end());
         tree = guideTree(all, allAxes);
     }
-    const std::vector<Start> last = judged(guided(tree.nodes, uniformStarts(1u << 15, 8)), use);
-    EXPECT_GT(std::ranges::count_if(last, [](const Start& s) { return s.seen > 0; }), (1 << 15) / 4);
+    const std::vector<PrimarySample> last = judged(guided(tree.nodes, uniformStarts(1u << 15, 8)), use);
+    EXPECT_GT(std::ranges::count_if(last, [](const PrimarySample& s) { return s.seen > 0; }), (1 << 15) / 4);
 }
 
 // ---- In scenes ---------------------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ TEST(Marks, WhatTheEyeSeesIsMarked) {
     const Settings settings = smallSettings(scene, true);
     const UploadedScene uploaded(testGpu(), scene, settings);
     const PhotonMap map{.radius = 0.01f};
-    const EyePlaces places(testGpu(), uploaded, sceneFeatures(scene, settings), settings, {.caustic = map});
+    const CameraPilot places(testGpu(), uploaded, sceneFeatures(scene, settings), settings, {.caustic = map});
 
     // Where rays through the film meet the table, and the same places a room's width farther.
     Random random(2);

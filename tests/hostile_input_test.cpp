@@ -23,8 +23,8 @@ constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;
 #endif
-constexpr long mostMebibytes = sanitized ? 1500 : 400; // mostSceneBytes and what a parser makes of them
-constexpr double mostSeconds = sanitized ? 60 : 10;
+constexpr long maxMebibytes = sanitized ? 1500 : 400; // maxSceneBytes and what a parser makes of them
+constexpr double maxSeconds = sanitized ? 60 : 10;
 
 struct Measured {
     int code = 0;
@@ -62,8 +62,8 @@ protected:
         EXPECT_EQ(result.code, 2) << file;
         EXPECT_THAT(result.output, HasSubstr("vkpm: " + file + message)) << file;
         EXPECT_EQ(faultOfRefusal(result.output.substr(0, result.output.size() - 1), "vkpm: "), "") << file;
-        EXPECT_LT(result.seconds, mostSeconds) << file;
-        EXPECT_LT(result.mebibytes, mostMebibytes) << file;
+        EXPECT_LT(result.seconds, maxSeconds) << file;
+        EXPECT_LT(result.mebibytes, maxMebibytes) << file;
     }
 
     fs::path write(const std::string& name, const std::string& text) const {

@@ -21,7 +21,7 @@ TestScene sceneWith(std::vector<Light> lights, std::vector<float> cdf = {1}) {
     return TestScene(scene);
 }
 
-std::vector<LightValues> sampleLight(const Light& light, const std::vector<vec2>& us) {
+std::vector<LightValues> sampleEmissionPoint(const Light& light, const std::vector<vec2>& us) {
     const TestScene scene = sceneWith({light});
     return map<LightValues>("sample_light", us, {}, scene.context());
 }
@@ -68,7 +68,7 @@ TEST(Light, RectanglesAreSampledUniformly) {
     const Light light = rectangle({1, 2, 3}, {2, 0, 1}, {-1, 3, 2});
     Histogram histogram(16, 16);
     const dvec3 u = light.u, v = light.v, n = glm::normalize(glm::cross(u, v));
-    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 1))) {
+    for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 1))) {
         const dvec3 d = dvec3(y.position) - dvec3(light.a), uv = glm::cross(u, v);
         histogram.add(glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv));
         ASSERT_NEAR(glm::dot(d, n), 0, 1e-6);
@@ -85,7 +85,7 @@ TEST(Light, TrianglesAreSampledUniformly) {
     light.area /= 2;
     Histogram histogram(16, 16);
     const dvec3 u = light.u, v = light.v, uv = glm::cross(u, v);
-    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 2))) {
+    for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 2))) {
         const dvec3 d = dvec3(y.position) - dvec3(light.a);
         const double x = glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), z = glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv);
         // x uniform in area: P(x < t) = 1 - (1 - t)^2; given x, z is uniform up to 1 - x.
@@ -99,7 +99,7 @@ TEST(Light, TrianglesAreSampledUniformly) {
 TEST(Light, SpheresAreSampledUniformly) {
     const Light light{.a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi)};
     Histogram histogram(16, 16);
-    for (const LightValues& y : sampleLight(light, unitSquare(1 << 18, 3))) {
+    for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 3))) {
         const dvec3 n = (dvec3(y.position) - dvec3(light.a)) * 2.0;
         histogram.add((n.z + 1) / 2, turn(n.x, n.y));
         ASSERT_NEAR(glm::length(n), 1, 2e-6);

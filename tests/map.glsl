@@ -1,5 +1,5 @@
 // A kernel that applies one function to an array: MAP(In, Out, f(x)).
-#include "kernel.glsl"
+#include "common.glsl"
 #include "map_args.h"
 
 ARGS(MapArgs)

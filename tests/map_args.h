@@ -135,7 +135,7 @@ struct AimCase {
 };
 
 struct GuideStartArgs {
-    PTR(Start) starts;
+    PTR(PrimarySample) starts;
     ADDRESS(GuideNode) guide;
     uint count;
 };

@@ -72,7 +72,7 @@ TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
     scene.passes = 3;
     scene.photons = 11;
     scene.radius = 0.5f;
-    scene.kernel = KERNEL_GAUSS;
+    scene.kernel = DENSITY_KERNEL_GAUSS;
     scene.schlick = true;
     scene.integrator = INTEGRATOR_PHOTON_MAP;
     scene.showPoints = true;
@@ -83,7 +83,7 @@ TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
     EXPECT_EQ(settings.photons, 11u);
     EXPECT_EQ(settings.radius, 0.5f);
     EXPECT_FALSE(settings.causticRadius);
-    EXPECT_EQ(settings.kernel, KERNEL_GAUSS);
+    EXPECT_EQ(settings.kernel, DENSITY_KERNEL_GAUSS);
     EXPECT_TRUE(settings.schlick);
     EXPECT_EQ(settings.integrator, INTEGRATOR_PHOTON_MAP);
     EXPECT_TRUE(settings.showPoints);
@@ -109,7 +109,7 @@ TEST_F(OptionsTest, OverridesTheScene) {
     EXPECT_EQ(settings.gatherRays, 7u);
     EXPECT_EQ(settings.radius, 0.25f);
     EXPECT_EQ(settings.causticRadius, 0.125f);
-    EXPECT_EQ(settings.kernel, KERNEL_CONE);
+    EXPECT_EQ(settings.kernel, DENSITY_KERNEL_CONE);
     EXPECT_TRUE(settings.schlick);
     EXPECT_EQ(settings.seed, 0xffffffffu);
     EXPECT_EQ(options.device, "llvmpipe");

@@ -150,13 +150,13 @@ TEST(Irradiance, UnderASquareLamp) {
 TEST(Irradiance, OfThePhotonMapUnderASquareLamp) {
     Settings settings{.size = {16, 16}, .photons = 2'000'000};
     settings.integrator = INTEGRATOR_PHOTON_MAP;
-    for (const uint kernel : {KERNEL_CONSTANT, KERNEL_CONE, KERNEL_GAUSS, KERNEL_EPANECHNIKOV}) {
+    for (const uint kernel : {DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS, DENSITY_KERNEL_EPANECHNIKOV}) {
         settings.kernel = kernel;
         settings.radius = 0.05f; // some 3,700 photons; bias below 0.1 %
         const Rendered image = renderPasses(loadJson(floorUnderLamp(1)), settings, 1);
         EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885, 0.7522746885 * 5 * std::sqrt(1.34 / 3700)) << kernel;
     }
-    settings.kernel = KERNEL_CONSTANT;
+    settings.kernel = DENSITY_KERNEL_CONSTANT;
     settings.nearest = 2000;
     const Rendered image = renderPasses(loadJson(floorUnderLamp(1)), settings, 1);
     EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885, 0.7522746885 * 5 / std::sqrt(2000.0));

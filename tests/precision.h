@@ -50,19 +50,19 @@ public:
         const double inUlps = std::isnan(error) ? INFINITY : error / ulp,
                      inRoundings = std::isnan(error) ? INFINITY : error / unit;
         count++;
-        mostUlps = std::max(mostUlps, inUlps);
+        maxUlps = std::max(maxUlps, inUlps);
         sumUlps += inUlps;
-        mostRoundings = std::max(mostRoundings, inRoundings);
+        maxRoundings = std::max(maxRoundings, inRoundings);
         sumRoundings += inRoundings;
     }
 
     std::string row() const {
-        return fmt::format("| {} | {} | {:.3g} | {:.2g} | {:.3g} | {:.2g} |", name, where, mostUlps, sumUlps / count,
-                           mostRoundings, sumRoundings / count);
+        return fmt::format("| {} | {} | {:.3g} | {:.2g} | {:.3g} | {:.2g} |", name, where, maxUlps, sumUlps / count,
+                           maxRoundings, sumRoundings / count);
     }
 
     std::string name, where;
-    double count = 0, mostUlps = 0, sumUlps = 0, mostRoundings = 0, sumRoundings = 0;
+    double count = 0, maxUlps = 0, sumUlps = 0, maxRoundings = 0, sumRoundings = 0;
 };
 
 } // namespace vkpm

@@ -14,10 +14,10 @@ using glm::dvec3;
 template <std::size_t N> using Inputs = std::array<double, N>;
 
 /// Prints a row of the table and holds it against bounds: of the worst error in roundings, and of the mean in ulps.
-void judge(const Precision& precision, double mostRoundings, double meanUlps) {
+void judge(const Precision& precision, double maxRoundings, double meanUlps) {
     fmt::print("{}\n", precision.row());
     EXPECT_GE(precision.count, 10'000) << precision.name << ", " << precision.where;
-    EXPECT_LE(precision.mostRoundings, mostRoundings) << precision.name << ", " << precision.where;
+    EXPECT_LE(precision.maxRoundings, maxRoundings) << precision.name << ", " << precision.where;
     EXPECT_LE(precision.sumUlps / precision.count, meanUlps) << precision.name << ", " << precision.where;
 }
 
@@ -49,7 +49,7 @@ TriangleCase aimedAt(Random& random, float distance, float thin) {
     return x;
 }
 
-void judgeTriangles(const char* where, float distance, float thin, double mostRoundings, double meanUlps) {
+void judgeTriangles(const char* where, float distance, float thin, double maxRoundings, double meanUlps) {
     Random random(1);
     std::vector<TriangleCase> xs;
     for (int i = 0; i < 100'000; i++) xs.push_back(aimedAt(random, distance, thin));
@@ -60,7 +60,7 @@ void judgeTriangles(const char* where, float distance, float thin, double mostRo
         t.add(double{ys[i].x}, doublesOf(xs[i]), [](const Inputs<15>& x) { return exactTriangle(x).x; });
         weight.add(double{ys[i].y}, doublesOf(xs[i]), [](const Inputs<15>& x) { return exactTriangle(x).y; });
     }
-    judge(t, mostRoundings, meanUlps);
+    judge(t, maxRoundings, meanUlps);
     judge(weight, 6, INFINITY);
 }
 
@@ -80,7 +80,7 @@ double exactSphere(const Inputs<13>& x) {
     return (b - half > 0 ? b - half : b + half) / a;
 }
 
-void judgeSpheres(const char* where, float distance, float pass, double mostRoundings, double meanUlps) {
+void judgeSpheres(const char* where, float distance, float pass, double maxRoundings, double meanUlps) {
     Random random(2);
     std::vector<SphereCase> xs;
     for (int i = 0; i < 100'000; i++) {
@@ -95,7 +95,7 @@ void judgeSpheres(const char* where, float distance, float pass, double mostRoun
     Precision t("sphere: distance", where);
     for (std::size_t i = 0; i < xs.size(); i++)
         if (ys[i] > 0) t.add(double{ys[i]}, doublesOf(xs[i]), exactSphere);
-    judge(t, mostRoundings, meanUlps);
+    judge(t, maxRoundings, meanUlps);
 }
 
 TEST(Precision, Spheres) {
@@ -206,12 +206,12 @@ TEST(Precision, Refraction) {
 double exactWeight(uint kernel, double x2) {
     const double k = 1.1, beta = 1.953, end = 1 - std::exp(-beta);
     switch (kernel) {
-    case KERNEL_CONE:
+    case DENSITY_KERNEL_CONE:
         return (1 - std::sqrt(x2) / k) / (1 - 2 / (3 * k));
     // Pavicic's alpha = 0.918 cancels. The mean of 1 - (1 - exp(-beta x2 / 2)) / end over x2 in [0, 1].
-    case KERNEL_GAUSS:
+    case DENSITY_KERNEL_GAUSS:
         return (1 - (1 - std::exp(-beta * x2 / 2)) / end) / (1 - (1 - (1 - std::exp(-beta / 2)) / (beta / 2)) / end);
-    case KERNEL_EPANECHNIKOV:
+    case DENSITY_KERNEL_EPANECHNIKOV:
         return 2 * (1 - x2);
     default:
         return 1;
@@ -220,10 +220,10 @@ double exactWeight(uint kernel, double x2) {
 
 TEST(Precision, DensityKernels) {
     const int count = 1 << 17;
-    for (const auto& [name, kernel] : {std::pair("constant", KERNEL_CONSTANT),
-                                       {"cone", KERNEL_CONE},
-                                       {"Gauss", KERNEL_GAUSS},
-                                       {"Epanechnikov", KERNEL_EPANECHNIKOV}}) {
+    for (const auto& [name, kernel] : {std::pair("constant", DENSITY_KERNEL_CONSTANT),
+                                       {"cone", DENSITY_KERNEL_CONE},
+                                       {"Gauss", DENSITY_KERNEL_GAUSS},
+                                       {"Epanechnikov", DENSITY_KERNEL_EPANECHNIKOV}}) {
         std::vector<vec2> xs;
         for (int i = 0; i < count; i++) xs.push_back({kernel, (float(i) + 0.5f) / float(count)});
         const auto ys = map<float>("density_weight", xs);
@@ -234,7 +234,7 @@ TEST(Precision, DensityKernels) {
                           [&](const Inputs<1>& x) { return exactWeight(kernel, x[0]); });
             mean += double{ys[i]} / count;
         }
-        judge(precision, kernel == KERNEL_GAUSS ? 15 : 8, 3.5);
+        judge(precision, kernel == DENSITY_KERNEL_GAUSS ? 15 : 8, 3.5);
         fmt::print("| kernel: {}, mean weight less one | the disc | {:.1e} | | | |\n", name, mean - 1);
         EXPECT_NEAR(mean, 1, 2e-7) << name;
     }

@@ -68,12 +68,12 @@ TEST(Radius, ExtentIsThatOfTheLight) {
     EXPECT_NO_THROW(requireRadius(extent, 1e-5f, "radius"));
 }
 
-// A plane of side 8 with `sparse` photons, and a spot of side 0.2 in its middle with `dense` more.
-std::vector<Photon> plane(uint sparse, uint dense, float scale) {
+// A plane of side 8 with `inverseDensity` photons, and a spot of side 0.2 in its middle with `dense` more.
+std::vector<Photon> plane(uint inverseDensity, uint dense, float scale) {
     Random random(5);
     std::vector<Photon> photons;
     const auto add = [&](float half) { photons.push_back({vec3(random.between(-half, half), random.between(-half, half), 0.1f) * scale, vec3(1), normalUp}); };
-    for (uint i = 0; i < sparse; i++) add(4);
+    for (uint i = 0; i < inverseDensity; i++) add(4);
     for (uint i = 0; i < dense; i++) add(0.1f);
     return photons;
 }
@@ -82,7 +82,7 @@ std::vector<Photon> plane(uint sparse, uint dense, float scale) {
 std::vector<float> measuredRadii(const std::vector<Photon>& photons, float perDisc, const std::vector<vec3>& places, float scale = 1) {
     PhotonGrid grid(testGpu(), "test");
     Buffer<Photon> buffer(testGpu(), "test photons", photons);
-    PhotonMap onDevice = grid.build(buffer, static_cast<uint>(photons.size()), scale, 1, MOST_LEVELS);
+    PhotonMap onDevice = grid.build(buffer, static_cast<uint>(photons.size()), scale, 1, MAX_LEVELS);
     RadiusField field(testGpu());
     field.measure(onDevice, static_cast<uint>(photons.size()), perDisc);
     field.apply(onDevice);
@@ -126,10 +126,10 @@ TEST(RadiusField, NarrowMapsAnswerWhereDiscsAreNarrow) {
     const std::vector<Photon> photons = plane(2000, 60'000, 1);
     RadiusField wide(testGpu()), narrow(testGpu());
     ratio(photons, 1, false, places, wide);
-    EXPECT_NEAR(wide.crowded, 0.97f, 0.02f);
+    EXPECT_NEAR(wide.overfull, 0.97f, 0.02f);
     const std::vector<float> radii = ratio(photons, 1.0f / 64, true, places, narrow);
     EXPECT_NEAR(narrow.known, 0.97f, 0.02f);
-    EXPECT_LT(narrow.crowded, 0.01f);
+    EXPECT_LT(narrow.overfull, 0.01f);
     const double expected = std::sqrt(10 * 0.04 / (pi * 60'000)); // of a disc that holds 10: 0.0015
     EXPECT_LT(radii[0], 2.5 * expected);                          // an eighth of the widest is the least there is: 0.002
     EXPECT_NEAR(radii[0], radii[1], 0.3 * radii[0]);

@@ -22,7 +22,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-json readJson(const fs::path& file) { return parseJson(file, readText(file, mostSceneBytes, "")); }
+json readJson(const fs::path& file) { return parseJson(file, readText(file, maxSceneBytes, "")); }
 
 /// Whether the shipped schema accepts a scene.
 bool schemaAccepts(const json& scene) {

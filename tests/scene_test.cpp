@@ -106,7 +106,7 @@ TEST(Scene, SettingsOverrideDefaults) {
     EXPECT_EQ(settings.causticRadius, 0.1f);
     EXPECT_EQ(settings.nearest, 5u);
     EXPECT_EQ(settings.gatherRays, 2u);
-    EXPECT_EQ(settings.kernel, KERNEL_CONE);
+    EXPECT_EQ(settings.kernel, DENSITY_KERNEL_CONE);
     EXPECT_TRUE(settings.schlick);
     EXPECT_EQ(settings.seed, 7u);
 
@@ -416,7 +416,7 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     EXPECT_EQ(features.hasSphereLights, 0u);
     EXPECT_EQ(features.hasTwoSidedLights, 0u);
     EXPECT_EQ(features.hasNearest, 1u);
-    EXPECT_EQ(features.densityKernel, KERNEL_CONE);
+    EXPECT_EQ(features.densityKernel, DENSITY_KERNEL_CONE);
     EXPECT_EQ(features.stackSize, plain.stackSize);
     EXPECT_TRUE(plain.targets.empty());
 

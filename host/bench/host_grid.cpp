@@ -5,7 +5,7 @@
 
 namespace vkpm {
 
-static constexpr double mostCells = 1u << 22;
+static constexpr double maxCells = 1u << 22;
 
 HostGrid::HostGrid(const std::vector<SurfacePoint>& unsorted, float gatherRadius) : radius(gatherRadius) {
     vec3 high = low = unsorted.front().position;
@@ -15,7 +15,7 @@ HostGrid::HostGrid(const std::vector<SurfacePoint>& unsorted, float gatherRadius
     }
     float width = radius;
     const auto cells = [&] { return glm::floor((high - low) / width) + 1.0f; };
-    while (double(cells().x) * double(cells().y) * double(cells().z) > mostCells) width *= 1.25f;
+    while (double(cells().x) * double(cells().y) * double(cells().z) > maxCells) width *= 1.25f;
     cellsPerUnit = 1 / width;
     size = ivec3(cells());
     sort(unsorted);

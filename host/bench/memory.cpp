@@ -32,7 +32,7 @@ Measurement measureCopy(Gpu& gpu, const std::string& name, const std::string& ag
     const std::vector<Photon> photons(copiedPhotons);
     const Buffer<Photon> from(gpu, "bench photons", photons), to(gpu, "bench photons", copiedPhotons);
     const Buffer<uint> places(gpu, "bench order", order);
-    const Kernel<ArrangeArgs> arrange(gpu, "arrange");
+    const Kernel<ReorderPhotonsArgs> arrange(gpu, "reorder_photons");
     std::vector<Photon> arranged(copiedPhotons);
     const PairedSeconds times = measurePairs(
         [&] {

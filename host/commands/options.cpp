@@ -93,8 +93,8 @@ void addPhotons(Parser& parser, RenderOptions& options, const Settings& defaults
     count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
     count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
           options.causticPhotons);
-    parser.add("--gather-rays", "N", fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", mostGatherRays, defaults.gatherRays),
-               [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, mostGatherRays); });
+    parser.add("--gather-rays", "N", fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", maxGatherRays, defaults.gatherRays),
+               [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, maxGatherRays); });
     radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
     radius("--caustic-radius", "the same for caustics", options.causticRadius);
     count("--nearest", fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
@@ -113,7 +113,7 @@ const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they tak
   compare IMAGE REFERENCE [--json]
                                  error measures between two EXR files, layer by layer
   merge OUT.exr PART.exr...      put parts that --pass-range rendered together
-  devices [--json]               list the Vulkan devices and what each lacks
+  devices [--json]               list the Vulkan devices and what each missingRequirements
   bench [--json] [--scene FILE] [--device INDEX|NAME]
                                  measure rays, sort, gather and memory rates
   bench --features SCENE.json... [--json] [--device INDEX|NAME]
@@ -216,7 +216,7 @@ Options parseMerge(std::span<const std::string> arguments) {
 
 Options parseDevices(std::span<const std::string> arguments) {
     DevicesOptions options;
-    Parser parser("List the Vulkan devices and what each lacks.", "vkpm devices [--json]");
+    Parser parser("List the Vulkan devices and what each missingRequirements.", "vkpm devices [--json]");
     parser.flag("--json", "as JSON", options.json);
     if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
     return options;

@@ -32,7 +32,7 @@ static Json kernelsJson(const Gpu& gpu, const Features& features) {
 /// Memory after a pass and a save, and the film's further runs.
 static Json memoryJson(const Gpu& gpu, const Features& features, const Settings& settings) {
     const std::uint64_t film = std::uint64_t(settings.size.x) * settings.size.y * Columns(features).SUM_COLUMNS * sizeof(float);
-    const std::uint64_t more = (mostRuns(settings.passes) - 1) * film;
+    const std::uint64_t more = (maxRuns(settings.passes) - 1) * film;
     Json buffers = Json::object();
     for (const auto& [name, bytes] : gpu.memory)
         if (bytes > 0) buffers[name] = buffers.value(name, std::uint64_t{0}) + bytes + (name == "film" ? more : 0);

@@ -36,7 +36,7 @@ public:
     operator Ptr<T>() const { return {address}; }
 
     void upload(std::span<const T> data, std::uint64_t first = 0) { write(data.data(), data.size_bytes(), first * sizeof(T)); }
-    T read1(std::uint64_t index = 0) const {
+    T readElement(std::uint64_t index = 0) const {
         T value;
         read(&value, sizeof(T), index * sizeof(T));
         return value;

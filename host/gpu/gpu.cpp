@@ -14,14 +14,14 @@ static int computeFamily(const vk::raii::PhysicalDevice& device) {
 }
 
 static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device) {
-    std::vector<std::string> lacks;
+    std::vector<std::string> missingRequirements;
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
     const auto features = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
                                               vk::PhysicalDeviceVulkan13Features>();
     const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
     const auto limits = device.getProperties().limits;
-    const auto need = [&](bool has, const char* what) { if (!has) lacks.push_back(what); };
+    const auto need = [&](bool has, const char* what) { if (!has) missingRequirements.push_back(what); };
     need(v12.bufferDeviceAddress, "bufferDeviceAddress");
     need(v12.scalarBlockLayout, "scalarBlockLayout");
     need(v13.synchronization2, "synchronization2");
@@ -33,11 +33,11 @@ static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device
     need(bool(subgroup.subgroupSupportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic), "subgroup arithmetic");
     need(limits.maxComputeWorkGroupInvocations >= 64, "64 invocations in a work group");
     need(computeFamily(device) >= 0, "a compute queue");
-    return lacks;
+    return missingRequirements;
 }
 
 static DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
-    DeviceInfo info{.lacks = findLacks(device)};
+    DeviceInfo info{.missingRequirements = findLacks(device)};
     const auto properties = device.getProperties();
     info.name = std::string(properties.deviceName.data());
     info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
@@ -61,7 +61,7 @@ static std::string describeAll(const std::vector<vk::raii::PhysicalDevice>& devi
     for (std::size_t i = 0; i < devices.size(); i++) {
         const DeviceInfo info = describe(devices[i]);
         text += fmt::format("\n  {}: {}{}", i, info.name,
-                            info.lacks.empty() ? "" : fmt::format(" (lacks {})", fmt::join(info.lacks, ", ")));
+                            info.missingRequirements.empty() ? "" : fmt::format(" (missingRequirements {})", fmt::join(info.missingRequirements, ", ")));
     }
     return text;
 }
@@ -87,7 +87,7 @@ static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& dev
         }
     }
     if (chosen == devices.size()) throw GpuError(fmt::format("no Vulkan device is '{}'; there are:{}", wanted, describeAll(devices)));
-    if (rank(chosen) == 4) throw GpuError(fmt::format("the Vulkan device lacks what vkpm needs; there are:{}\n{}", describeAll(devices), installHint));
+    if (rank(chosen) == 4) throw GpuError(fmt::format("the Vulkan device missingRequirements what vkpm needs; there are:{}\n{}", describeAll(devices), installHint));
     return chosen;
 }
 
@@ -150,7 +150,7 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
 
 Gpu::Handles::~Handles() {
     try {
-        if (!underWay.empty()) device.waitIdle();
+        if (!inFlight.empty()) device.waitIdle();
     } catch (const vk::SystemError&) { // a device that is lost runs nothing
     }
 }
@@ -171,7 +171,7 @@ static const char* const runningHint = "another program may have hung or reset i
 
 void Gpu::Handles::submit(vk::raii::CommandBuffer recorded, std::shared_ptr<const void> used) const {
     attempt(running, runningHint, [&] { enqueue(queue, recorded, nullptr); });
-    underWay.emplace_back(std::move(recorded), std::move(used));
+    inFlight.emplace_back(std::move(recorded), std::move(used));
 }
 
 void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const {
@@ -188,7 +188,7 @@ void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const 
         const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
     });
-    underWay.clear();
+    inFlight.clear();
 }
 
 void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {

@@ -1,4 +1,4 @@
-/// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files here use.
+/// A Vulkan device with one compute queue: what it is, what it missingRequirements, and the handles the other files here use.
 #pragma once
 #include "error.h"
 #include <atomic>
@@ -17,7 +17,7 @@ struct DeviceInfo {
     std::string apiVersion;
     std::uint32_t subgroupSize = 0;
     std::uint64_t memoryBytes = 0;  // of the largest device-local heap
-    std::vector<std::string> lacks; // what vkpm needs and the device does not have
+    std::vector<std::string> missingRequirements; // what vkpm needs and the device does not have
 };
 
 /// Seconds and dispatches of a kernel over a Gpu's life.
@@ -31,7 +31,7 @@ struct Cancelled {};
 
 class Gpu {
 public:
-    /// Opens a device by index or by part of its name; without either the first that lacks nothing, GPUs before CPUs.
+    /// Opens a device by index or by part of its name; without either the first that missingRequirements nothing, GPUs before CPUs.
     explicit Gpu(std::string_view wanted = {});
     ~Gpu();
     Gpu(const Gpu&) = delete;

@@ -24,7 +24,7 @@ struct Gpu::Handles {
     DeviceInfo info;
     std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>> kernels; // by SPIR-V and features
     std::deque<std::shared_ptr<const RawKernel::Handles>> recent; // kernels that are kept for renderers to come
-    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>> underWay; // submitted without waiting, and what they use
+    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>> inFlight; // submitted without waiting, and what they use
 
     ~Handles();
 

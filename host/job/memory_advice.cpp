@@ -32,7 +32,7 @@ std::optional<Needs> measure(Gpu& gpu, const Scene& scene, const Settings& setti
         Renderer renderer(gpu, scene, few);
         renderer.renderPass(0);
         Needs needs{gpu.memory, double(photons), 0};
-        needs.bytes["film"] *= mostRuns(settings.passes);
+        needs.bytes["film"] *= maxRuns(settings.passes);
         for (const MapKind kind : {MapKind::global, MapKind::caustic})
             needs.stored = std::max(needs.stored, double(renderer.photons(kind).stored));
         return needs;
@@ -76,9 +76,9 @@ uint rounded(double count) {
 }
 
 /// About the most photons that fit, below a number that does not; 0 if it is not worth while to look for fewer.
-uint mostPhotons(Gpu& gpu, const Scene& scene, const Settings& settings, uint tooMany) {
+uint maxPhotons(Gpu& gpu, const Scene& scene, const Settings& settings, uint tooMany) {
     const uint least = 1000;
-    uint photons = std::min(WaveSizes{}.photons, tooMany / 4);
+    uint photons = std::min(BatchSizes{}.photons, tooMany / 4);
     std::optional<Needs> few = measure(gpu, scene, settings, photons);
     while (!few && photons / 4 >= least) few = measure(gpu, scene, settings, photons /= 4);
     if (!few) return 0;
@@ -99,7 +99,7 @@ uint mostPhotons(Gpu& gpu, const Scene& scene, const Settings& settings, uint to
 
 std::string memoryAdvice(Gpu& gpu, const Scene& scene, const Settings& settings) {
     const uint asked = std::max(settings.photons, settings.causticPhotons);
-    const uint most = mostPhotons(gpu, scene, settings, asked);
+    const uint most = maxPhotons(gpu, scene, settings, asked);
     if (most == 0)
         return fmt::format("an image of {}x{} pixels and this scene do not fit with a thousand photons either: ask for "
                            "a smaller image (--size) or for fewer layers (--layers)",

@@ -14,7 +14,7 @@
 namespace vkpm {
 namespace {
 
-const uint leastPassesForError = 8; // batches of two sizes, see render/noise.h
+const uint minPassesForError = 8; // batches of two sizes, see render/noise.h
 
 PhotonCounts countsOf(const PhotonLedger& l) {
     return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
@@ -24,7 +24,7 @@ std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool 
     if (!stages) return {};
     const auto inWorld = [&](float radius) { return static_cast<float>(unit * double{radius}); };
     const float greatest = stages->field ? stages->radius * std::exp2(stages->field->greatest) : stages->radius;
-    return GatherRadii{inWorld(stages->smallestRadius()), inWorld(stages->typicalRadius()), inWorld(greatest), given};
+    return GatherRadii{inWorld(stages->smallestRadius()), inWorld(stages->medianRadius()), inWorld(greatest), given};
 }
 
 /// "hasGlass: the scene has no glass", a line for each feature that the render needs, or does without.
@@ -123,7 +123,7 @@ std::optional<ErrorEstimate> RenderJob::estimateNow() const {
 /// resumed stops where one that was not would.
 void RenderJob::estimate() {
     const uint count = passCount();
-    uint due = leastPassesForError;
+    uint due = minPassesForError;
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
     error = estimateNow();

@@ -42,8 +42,8 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
     const bool done = finished >= goal.passes;
     const uint rendered = finished - goal.first;
     const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
-    const double nearness = error > 0 ? goal.error * goal.error / (error * error) : 0;
-    const double part = std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, nearness}), 0.0, most);
+    const double inverseDistance = error > 0 ? goal.error * goal.error / (error * error) : 0;
+    const double part = std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, inverseDistance}), 0.0, most);
     const double left = rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
     const std::string passes = goal.passes == NONE ? "" : fmt::format("/{}", goal.passes);
     std::string line = fmt::format("pass {}{}  {} %  {} elapsed", finished, passes, uint(100 * part), clockText(seconds));

@@ -57,7 +57,7 @@ std::string statisticsJson(const Statistics& statistics) {
     object["needed"] = statistics.needed;
     object["left_out"] = statistics.leftOut;
     object["error"] = nullptr;
-    if (const auto& e = statistics.error) object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"sure", 0.9}};
+    if (const auto& e = statistics.error) object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"confidence", 0.9}};
     object["nonfinite"] = statistics.nonfinite;
     object["warnings"] = statistics.warnings;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -14,8 +14,8 @@ namespace vkpm {
 // and go everywhere, what lies about.
 const float pixelReach = 2, rayReach = 8;
 
-CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint wave)
-    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, wave)),
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint batch)
+    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batch)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
@@ -40,38 +40,38 @@ void CameraPaths::castShadowRays(Recording& recording) {
 }
 
 /// Answers the questions of a queue to a map, or marks where they were asked.
-void CameraPaths::askMap(Recording& recording, const Wave& wave, uint kind, const PhotonMap& map) {
+void CameraPaths::queryPhotonMap(Recording& recording, const Batch& batch, uint kind, const PhotonMap& map) {
     if (map.radius == 0) return;
     const Ptr<Queue> queue{compaction.queues.address + kind * sizeof(Queue)};
-    if (!wave.maps.marks) {
+    if (!batch.maps.marks) {
         recording.run(*gather, compaction.queues, kind, {map, queries, samples, queue, compaction.list, size});
         return;
     }
-    const EyeMarks::Map& marks = kind == QUEUE_CAUSTIC ? wave.maps.marks->caustic : wave.maps.marks->global;
+    const VisibleCells::Map& marks = kind == QUEUE_CAUSTIC ? batch.maps.marks->caustic : batch.maps.marks->global;
     const float reach = kind == QUEUE_CAUSTIC ? pixelReach : rayReach;
-    recording.run(wave.maps.marks->kernel, compaction.queues, kind, {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
+    recording.run(batch.maps.marks->kernel, compaction.queues, kind, {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
 }
 
-void CameraPaths::bounce(Recording& recording, const Wave& wave, uint index) {
+void CameraPaths::bounce(Recording& recording, const Batch& batch, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
                   {scene.address, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list, compaction.flags,
-                   size, wave.first, wave.sequence, wave.index, settings.seed, index, features.hasCausticMap, wave.maps.nearDistance, pixelAngle,
+                   size, batch.first, batch.sequence, batch.index, settings.seed, index, features.hasCausticMap, batch.maps.nearDistance, pixelAngle,
                    settings.integrator});
     compaction.compact(recording);
 
     castShadowRays(recording);
-    for (const PhotonMap& narrow : wave.maps.narrow) askMap(recording, wave, QUEUE_CAUSTIC, narrow);
-    askMap(recording, wave, QUEUE_CAUSTIC, wave.maps.caustic);
-    askMap(recording, wave, QUEUE_GLOBAL, wave.maps.global);
+    for (const PhotonMap& narrow : batch.maps.narrow) queryPhotonMap(recording, batch, QUEUE_CAUSTIC, narrow);
+    queryPhotonMap(recording, batch, QUEUE_CAUSTIC, batch.maps.caustic);
+    queryPhotonMap(recording, batch, QUEUE_GLOBAL, batch.maps.global);
 }
 
 /// Batches of bounces, until the device says that no path is left.
-RayCounts CameraPaths::follow(Recording& recording, const Wave& wave, uint index) {
+RayCounts CameraPaths::follow(Recording& recording, const Batch& batch, uint index) {
     std::vector<Queue> queues;
     while (index < maxBounces) {
-        for (uint i = 0; i < bouncesAtOnce; i++) bounce(recording, wave, index++);
+        for (uint i = 0; i < bouncesAtOnce; i++) bounce(recording, batch, index++);
         recording.submit();
         queues = compaction.queues.download();
         if (queues[QUEUE_CONTINUE].count == 0) break;
@@ -81,18 +81,18 @@ RayCounts CameraPaths::follow(Recording& recording, const Wave& wave, uint index
 
 RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
     Recording recording(gpu);
-    const Wave wave{first, count, SAMPLES_EYE, pass, maps};
+    const Batch batch{first, count, SAMPLES_EYE, pass, maps};
     pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
     compaction.start(count);
     recording.run(eye, count,
                   {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass, settings.seed,
                    settings.showPoints, split.has_value()});
-    RayCounts rays = follow(recording, wave, 0);
+    RayCounts rays = follow(recording, batch, 0);
     if (!split) return rays;
 
     const uint gatherRays = settings.gatherRays;
     for (uint ray = 0; ray < gatherRays; ray++) {
-        const Wave gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
+        const Batch gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
         compaction.start(count);
         recording.run(*split, count,
                       {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, first, count, gathering.index, settings.seed,

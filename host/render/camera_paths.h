@@ -10,13 +10,13 @@
 
 namespace vkpm {
 
-/// Marks of the places where paths ask the maps, see marks.glsl.
-struct EyeMarks {
+/// Marks of the places where paths ask the maps, see visible_cells.glsl.
+struct VisibleCells {
     struct Map {
         Buffer<uint> bits{};
         float cellWidth = 0; // of the finest cells
     };
-    Kernel<MarkArgs> kernel;
+    Kernel<MarkVisibleArgs> kernel;
     Map global{};
     Map caustic{};
 };
@@ -27,7 +27,7 @@ struct PhotonMaps {
     PhotonMap caustic{};
     std::vector<PhotonMap> narrow{}; // of caustics, asked first: the narrowest discs first
     float nearDistance = 0; // a gather ray shorter than this goes on
-    const EyeMarks* marks = nullptr; // the places are marked there, and nothing is gathered
+    const VisibleCells* marks = nullptr; // the places are marked there, and nothing is gathered
 };
 
 struct RayCounts {
@@ -40,7 +40,7 @@ struct RayCounts {
 /// Traces one path per pixel, and gather rays from where it ends, for a range of pixels at a time.
 class CameraPaths {
 public:
-    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, uint wave);
+    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, uint batch);
 
     /// Pixels that one call of trace() may take.
     uint capacity() const { return size; }
@@ -54,7 +54,7 @@ public:
 
 private:
     /// What the paths under way have in common.
-    struct Wave {
+    struct Batch {
         uint first; // pixel
         uint count;
         uint sequence;
@@ -62,9 +62,9 @@ private:
         const PhotonMaps& maps;
     };
     void castShadowRays(Recording& recording);
-    void askMap(Recording& recording, const Wave& wave, uint queue, const PhotonMap& map);
-    void bounce(Recording& recording, const Wave& wave, uint bounce);
-    RayCounts follow(Recording& recording, const Wave& wave, uint bounce);
+    void queryPhotonMap(Recording& recording, const Batch& batch, uint queue, const PhotonMap& map);
+    void bounce(Recording& recording, const Batch& batch, uint bounce);
+    RayCounts follow(Recording& recording, const Batch& batch, uint bounce);
 
     Gpu& gpu;
     const UploadedScene& scene;

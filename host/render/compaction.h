@@ -28,7 +28,7 @@ private:
     Buffer<Queue> nextQueues;
     Buffer<uint> nextList;
     Buffer<uint> sums;
-    Kernel<TallyArgs> tally;
+    Kernel<CompactCountArgs> tally;
     Kernel<ScanArgs> scan;
     Kernel<CompactArgs> scatter;
 };

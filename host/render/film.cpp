@@ -257,7 +257,7 @@ std::vector<Pixel> Film::download() const {
 
 std::array<std::uint64_t, LAYER_COUNT> Film::nonfinite() const {
     std::array<std::uint64_t, LAYER_COUNT> counts;
-    const Status result = status.read1();
+    const Status result = status.readElement();
     for (uint layer = 0; layer < LAYER_COUNT; layer++) counts[layer] = result.nonfinite[layer];
     return counts;
 }

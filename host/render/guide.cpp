@@ -11,14 +11,14 @@
 namespace vkpm {
 
 const double eyePaths = 8192; // wanted
-const uint mostEyePaths = 1u << 14;
+const uint maxEyePaths = 1u << 14;
 const uint eyeGatherRays = 1;
-const uint pointsApart = 8, mostLightsEach = 64; // one point of so many is asked about that many lights,
-const uint mostLights = 1024;                    // so that each is asked about at 64 points
+const uint pointsApart = 8, maxLightsEach = 64; // one point of so many is asked about that many lights,
+const uint maxLights = 1024;                    // so that each is asked about at 64 points
 const uint firstPhotons = 1u << 13, morePhotons = 1u << 15; // of the first and of other rounds
-const uint mostRounds = 3;
+const uint maxRounds = 3;
 const std::size_t enoughToTell = 30, enoughPlaces = 1000; // where photons were seen: to tell whether a guide is of use, and to make it
-const double leastGain = 1.3; // for which photons are guided
+const double minGain = 1.3; // for which photons are guided
 
 /// A picture of the same proportions with few pixels.
 static Settings smallPicture(Settings settings) {
@@ -32,11 +32,11 @@ static Settings smallPicture(Settings settings) {
 /// Cells that are just wide enough for the narrowest gathers.
 static float finestCells(const PhotonMap& map) { return 2 * std::ldexp(map.radius, -static_cast<int>(map.levels)); }
 
-EyePlaces::EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps)
-    : marks{.kernel = {gpu, "mark", features}}, paths(gpu, scene, features, smallPicture(settings), mostEyePaths) {
+CameraPilot::CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps)
+    : marks{.kernel = {gpu, "mark_visible", features}}, paths(gpu, scene, features, smallPicture(settings), maxEyePaths) {
     Recording recording(gpu);
-    for (EyeMarks::Map* map : {&marks.global, &marks.caustic}) {
-        map->bits = Buffer<uint>(gpu, "eye marks", MARK_WORDS + 1);
+    for (VisibleCells::Map* map : {&marks.global, &marks.caustic}) {
+        map->bits = Buffer<uint>(gpu, "eye marks", VISIBLE_CELL_WORDS + 1);
         map->cellWidth = finestCells(map == &marks.global ? maps.global : maps.narrow.empty() ? maps.caustic : maps.narrow.front());
         recording.clear(map->bits);
     }
@@ -48,36 +48,36 @@ EyePlaces::EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& featu
 
 GuideNeeds::GuideNeeds(const Scene& scene) {
     axes.fill(true);
-    axes[START_LIGHT] = scene.lights.size() > 1;
-    axes[START_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
-    axes[START_TARGET] = scene.targets.size() > 1;
-    lights = axes[START_LIGHT] && scene.lights.size() <= mostLights;
-    global = axes[START_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
+    axes[PRIMARY_LIGHT] = scene.lights.size() > 1;
+    axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
+    axes[PRIMARY_TARGET] = scene.targets.size() > 1;
+    lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
+    global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
 }
 
-Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const EyeMarks& marks) {
-    const EyeMarks::Map& map = kind == MapKind::caustic ? marks.caustic : marks.global;
-    const Kernel<UsefulArgs> useful(gpu, "useful");
-    std::array<bool, START_NUMBERS> axes = needs.axes;
-    axes[START_TARGET] &= kind == MapKind::caustic;
+Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const VisibleCells& marks) {
+    const VisibleCells::Map& map = kind == MapKind::caustic ? marks.caustic : marks.global;
+    const Kernel<PhotonContributionArgs> useful(gpu, "photon_contribution");
+    std::array<bool, PRIMARY_DIMENSIONS> axes = needs.axes;
+    axes[PRIMARY_TARGET] &= kind == MapKind::caustic;
     Guide guide;
-    std::vector<Start> all;
-    for (uint round = 0; round < mostRounds && (round < 2 || guide.places.size() < enoughPlaces); round++) {
+    std::vector<PrimarySample> all;
+    for (uint round = 0; round < maxRounds && (round < 2 || guide.places.size() < enoughPlaces); round++) {
         const uint photons = round == 0 ? firstPhotons : morePhotons;
         PhotonTracing pilot(gpu, scene, features, kind, photons, seed, photons);
-        const Buffer<Start> starts(gpu, "pilot starts", photons);
+        const Buffer<PrimarySample> starts(gpu, "pilot starts", photons);
         pilot.guide(guide.nodes, starts);
         pilot.trace(NONE - 1 - round); // no pass of a render
         Recording recording(gpu);
         recording.run(useful, photons, {pilot.photons, pilot.places(), map.bits, starts, photons, map.cellWidth});
         recording.submit();
-        for (const Start& start : starts.download()) {
+        for (const PrimarySample& start : starts.download()) {
             if (start.seen > 0) guide.places.push_back(start.place);
             all.push_back(start);
         }
         const GuideTree tree = guideTree(all, axes);
-        const bool knows = guide.places.size() >= enoughToTell || round + 1 == mostRounds;
-        if (tree.gain < leastGain && knows) return {};
+        const bool knows = guide.places.size() >= enoughToTell || round + 1 == maxRounds;
+        if (tree.gain < minGain && knows) return {};
         guide.nodes = Buffer<GuideNode>(gpu, "guide", tree.nodes);
         guide.density = static_cast<float>(tree.density);
     }
@@ -105,11 +105,11 @@ static std::vector<double> lightWeights(std::span<const float> values, std::span
     return weights;
 }
 
-std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const EyePlaces& places, std::span<const float> byFlux) {
-    const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, mostLightsEach);
+std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const CameraPilot& places, std::span<const float> byFlux) {
+    const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, maxLightsEach);
     const uint points = static_cast<uint>(places.paths.splitPoints().size()) / pointsApart;
     const Buffer<float> values(gpu, "light values", std::uint64_t(points) * each);
-    const Kernel<WeighArgs> weigh(gpu, "weigh", features);
+    const Kernel<LightContributionArgs> weigh(gpu, "light_contribution", features);
     Recording recording(gpu);
     recording.run(weigh, values.size(), {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
     recording.submit();

@@ -8,12 +8,12 @@
 namespace vkpm {
 
 /// Where some paths from the eye ask the photon maps, as sets of cells about as wide as what is read there.
-class EyePlaces {
+class CameraPilot {
 public:
     /// Follows some paths of a small picture with the camera of `scene`; `maps` say how wide gathers are.
-    EyePlaces(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps);
+    CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps);
 
-    EyeMarks marks;
+    VisibleCells marks;
     CameraPaths paths;
 };
 
@@ -21,7 +21,7 @@ public:
 struct GuideNeeds {
     explicit GuideNeeds(const Scene& scene);
 
-    std::array<bool, START_NUMBERS> axes; // numbers that matter
+    std::array<bool, PRIMARY_DIMENSIONS> axes; // numbers that matter
     bool global;                          // photons of the global map, which go everywhere if there is one lamp and it is near
     bool lights;                          // light samples, if there are lights to choose from
 };
@@ -34,10 +34,10 @@ struct Guide {
 };
 
 /// Learns in some rounds which photons to start, each with the guide of those before; stops after the first if there is little to gain.
-Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const EyeMarks& marks);
+Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const VisibleCells& marks);
 
 /// Upper ends of the parts of the unit interval by which light samples choose lights: in proportion to the root of the mean square
 /// of what each brings to the places, in parts of all light there. Lights get a tenth by flux, whose CDF is `byFlux`.
-std::vector<float> learnLights(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const EyePlaces& places, std::span<const float> byFlux);
+std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const CameraPilot& places, std::span<const float> byFlux);
 
 } // namespace vkpm

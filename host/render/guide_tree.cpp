@@ -9,21 +9,21 @@ namespace {
 
 const std::size_t fewSamples = 64;     // in a box that is not cut any more
 const float narrowest = 1.0f / 4096;  // half of a box
-const double leastSaving = 0.01;      // of a box's effort, for its cuts to stay
-const std::array<uint, START_NUMBERS> order{START_DIRECTION, START_DIRECTION + 1, START_TARGET, START_LIGHT, START_PLACE, START_PLACE + 1, START_SIDE};
+const double minSaving = 0.01;      // of a box's effort, for its cuts to stay
+const std::array<uint, PRIMARY_DIMENSIONS> order{PRIMARY_DIRECTION, PRIMARY_DIRECTION + 1, PRIMARY_TARGET, PRIMARY_LIGHT, PRIMARY_POSITION, PRIMARY_POSITION + 1, PRIMARY_SIDE};
 
 // What a photon costs in units of one that is stored nowhere: there are more rays, and it is sorted and read.
-float costOf(const Start& start) { return 1 + 2 * float(start.stored); }
+float costOf(const PrimarySample& start) { return 1 + 2 * float(start.stored); }
 
 /// What is asked of a photon again and again, with the density of uniform ones.
 struct PilotSample {
-    std::array<float, START_NUMBERS> numbers;
+    std::array<float, PRIMARY_DIMENSIONS> numbers;
     float all;    // their density over that with which it was started
     float cost;
     double useful; // square of what it adds, which may be a far light's 10^-40
 
-    explicit PilotSample(const Start& start)
-        : all(start.sparse), cost(all * costOf(start)), useful(double(all) * start.weight * start.weight * start.seen) {
+    explicit PilotSample(const PrimarySample& start)
+        : all(start.inverseDensity), cost(all * costOf(start)), useful(double(all) * start.weight * start.weight * start.seen) {
         std::ranges::copy(start.numbers, numbers.begin());
     }
 };
@@ -48,8 +48,8 @@ struct Sums {
 };
 
 struct Box {
-    std::array<float, START_NUMBERS> low{};
-    std::array<float, START_NUMBERS> width{1, 1, 1, 1, 1, 1, 1};
+    std::array<float, PRIMARY_DIMENSIONS> low{};
+    std::array<float, PRIMARY_DIMENSIONS> width{1, 1, 1, 1, 1, 1, 1};
     double volume = 1;
 
     float middle(uint axis) const { return low[axis] + width[axis] / 2; }
@@ -75,7 +75,7 @@ struct Share {
 
 class Builder {
 public:
-    Builder(std::vector<PilotSample>& given, const std::array<bool, START_NUMBERS>& which) : axes(which) {
+    Builder(std::vector<PilotSample>& given, const std::array<bool, PRIMARY_DIMENSIONS>& which) : axes(which) {
         Sums sums;
         for (const PilotSample& sample : given) sums.add(sample);
         mean = sums.all > 0 ? sums.useful / sums.all : 0;
@@ -134,7 +134,7 @@ private:
         tree.nodes.resize(child + 2, {NONE, 0, 0});
         const Share lower = build({samples.begin(), upper}, box.half(axis, false), child);
         const Share both = lower + build({upper, samples.end()}, box.half(axis, true), child + 1);
-        if (both.effort > (1 - leastSaving) * uncut.effort) {
+        if (both.effort > (1 - minSaving) * uncut.effort) {
             tree.nodes.resize(child);
             return uncut;
         }
@@ -142,13 +142,13 @@ private:
         return both;
     }
 
-    std::array<bool, START_NUMBERS> axes;
+    std::array<bool, PRIMARY_DIMENSIONS> axes;
     double mean = 0; // square of what a photon adds
 };
 
 } // namespace
 
-GuideTree guideTree(std::span<const Start> starts, const std::array<bool, START_NUMBERS>& axes) {
+GuideTree guideTree(std::span<const PrimarySample> starts, const std::array<bool, PRIMARY_DIMENSIONS>& axes) {
     std::vector<PilotSample> samples(starts.begin(), starts.end());
     return Builder(samples, axes).tree;
 }

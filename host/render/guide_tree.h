@@ -17,6 +17,6 @@ struct GuideTree {
 /// The tree whose photons cause the least variance in a time: each box gets them in proportion to the root of the mean square of
 /// what one adds to the picture over the mean of what it costs (Cochran 1977, eq. 5.23). It adds its weight if the eye sees where
 /// it is stored (Grittmann et al. 2018 call it useful), else nothing. `axes` says which numbers matter in a scene.
-GuideTree guideTree(std::span<const Start> starts, const std::array<bool, START_NUMBERS>& axes);
+GuideTree guideTree(std::span<const PrimarySample> starts, const std::array<bool, PRIMARY_DIMENSIONS>& axes);
 
 } // namespace vkpm

@@ -5,10 +5,10 @@
 
 namespace vkpm {
 
-LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& settings, float flux, uint wave)
+LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& settings, float flux, uint batch)
     : gpu(device), scene(uploaded), size(settings.size), photonFlux(flux / float(settings.causticPhotons)),
-      tracing(gpu, scene, features, MapKind::caustic, settings.causticPhotons, settings.seed, wave), sort(gpu), rays(gpu, "camera connections", 1),
-      splat(gpu, "splat", features), collectKernel(gpu, "collect", features) {}
+      tracing(gpu, scene, features, MapKind::caustic, settings.causticPhotons, settings.seed, batch), sort(gpu), rays(gpu, "camera connections", 1),
+      splat(gpu, "splat", features), collectKernel(gpu, "sum_splats", features) {}
 
 PhotonLedger LightTracing::trace(uint pass) {
     PhotonLedger traced = tracing.trace(pass);
@@ -25,7 +25,7 @@ PhotonLedger LightTracing::trace(uint pass) {
     recording.run(splat, splatCount, {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, photonFlux});
     sort.sort(recording, splatCount, static_cast<uint>(std::bit_width(size.x * size.y)));
     recording.submit();
-    traced.rays += rays.read1();
+    traced.rays += rays.readElement();
     return traced;
 }
 

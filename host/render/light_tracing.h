@@ -7,11 +7,11 @@
 namespace vkpm {
 
 /// Finds the caustic layer without a radius: traces the photons that a caustic map would hold, and adds each to the pixel that
-/// sees it (Arvo 1986; Dutré, Lafortune & Willems 1993). The same bits whatever the size of waves.
+/// sees it (Arvo 1986; Dutré, Lafortune & Willems 1993). The same bits whatever the size of batches.
 class LightTracing {
 public:
     /// `flux` is that of all lights, W.
-    LightTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, float flux, uint wave);
+    LightTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, float flux, uint batch);
 
     /// Traces the photons of a pass, and sorts what they add to pixels by pixel. Of what it returns rays are those to the camera as well.
     PhotonLedger trace(uint pass);
@@ -31,7 +31,7 @@ private:
     Buffer<uint> rays;
     uint splatCount = 0;
     Kernel<SplatArgs> splat;
-    Kernel<CollectArgs> collectKernel;
+    Kernel<SumSplatsArgs> collectKernel;
 };
 
 } // namespace vkpm

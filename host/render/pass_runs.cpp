@@ -17,7 +17,7 @@ bool joins(PassRange a, PassRange b) {
     return node == child && b.begin % child == 0 && a.begin % (siblings * child) == 0 && before % child == 0 && before < siblings * child;
 }
 
-std::size_t mostRuns(uint passes) {
+std::size_t maxRuns(uint passes) {
     std::vector<PassRange> runs;
     std::size_t most = 0;
     for (uint pass = 0; pass < std::min(passes, 1u << 20); pass++) {

@@ -14,7 +14,7 @@ inline uint length(PassRange passes) { return passes.end - passes.begin; }
 bool joins(PassRange a, PassRange b);
 
 /// The most runs that a film of the passes from 0 on holds at a time; a pass that joins the last run needs none of its own.
-std::size_t mostRuns(uint passes);
+std::size_t maxRuns(uint passes);
 
 /// How to join b, or its first passes, to a, which may be empty.
 JoinWeights joinWeights(PassRange a, PassRange b);

@@ -8,18 +8,18 @@
 namespace vkpm {
 
 PhotonGrid::PhotonGrid(Gpu& device, std::string label, uint bits)
-    : gpu(device), name(std::move(label)), blockBits(bits), sort(gpu), keys(gpu, "keys"), arrange(gpu, "arrange"), cellStarts(gpu, "cells"), crowded(gpu, name + " crowded", std::vector<uint>{0}) {}
+    : gpu(device), name(std::move(label)), blockBits(bits), sort(gpu), keys(gpu, "keys"), arrange(gpu, "reorder_photons"), cellStarts(gpu, "cells"), overfull(gpu, name + " overfull", std::vector<uint>{0}) {}
 
 /// Whether the last cells written were.
 bool PhotonGrid::isCrowded() {
-    const uint found = crowded.read1();
-    if (found) crowded.upload(std::vector<uint>{0});
+    const uint found = overfull.readElement();
+    if (found) overfull.upload(std::vector<uint>{0});
     return found != 0;
 }
 
 /// Arranges the photons that stay, and writes the cells anew.
 void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint mask, uint pass) {
-    if (!thinning) thinning.emplace(Thinning{{gpu, "crowd"}, {gpu, "scan"}, {gpu, "thin"}, {gpu, name + " whole", 1}});
+    if (!thinning) thinning.emplace(Thinning{{gpu, "mark_kept"}, {gpu, "scan"}, {gpu, "thin_cells"}, {gpu, name + " whole", 1}});
     const Queue all{.count = count};
     thinning->whole.upload(std::span(&all, 1));
     Recording recording(gpu);
@@ -27,8 +27,8 @@ void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint mask, uint
     recording.run(thinning->scan, GROUP, {sort.spareValues, thinning->whole, 1, 1});
     recording.run(thinning->thin, count, {photons, sort.values, sort.keys, cells, sort.spareValues, arranged, sort.spareKeys, count, pass});
     recording.submit();
-    const uint left = sort.spareValues.read1(count);
-    recording.run(cellStarts, left + 1ull, {sort.spareKeys, cells, crowded, left, mask});
+    const uint left = sort.spareValues.readElement(count);
+    recording.run(cellStarts, left + 1ull, {sort.spareKeys, cells, overfull, left, mask});
     recording.submit();
 }
 
@@ -51,7 +51,7 @@ PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float rad
     Recording recording(gpu);
     recording.run(keys, count, {photons, sort.keys, sort.values, count, cellsPerUnit, levels, mask});
     sort.sort(recording, count, bits);
-    recording.run(cellStarts, count + 1ull, {sort.keys, cells, crowded, count, mask});
+    recording.run(cellStarts, count + 1ull, {sort.keys, cells, overfull, count, mask});
     recording.run(arrange, count, {photons, sort.values, arranged, count});
     recording.submit();
     if (isCrowded() && pass) thin(photons, count, mask, *pass);

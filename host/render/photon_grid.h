@@ -16,16 +16,16 @@ public:
 
     /// Sorts the first `count` of `photons` into cells for gathers within `radius`.
     /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of a pass,
-    /// crowded cells are thinned (see crowd.glsl); without one, all photons are there. The result has no radius field, and is
+    /// overfull cells are thinned (see cell_thinning.glsl); without one, all photons are there. The result has no radius field, and is
     /// valid until the next build.
     PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0, std::optional<uint> pass = {});
 
 private:
-    /// What thinning needs, if any cell ever is crowded.
+    /// What thinning needs, if any cell ever is overfull.
     struct Thinning {
-        Kernel<CrowdArgs> crowd;
+        Kernel<MarkKeptArgs> crowd;
         Kernel<ScanArgs> scan;
-        Kernel<ThinArgs> thin;
+        Kernel<ThinCellsArgs> thin;
         Buffer<Queue> whole;
     };
 
@@ -39,9 +39,9 @@ private:
     Buffer<Photon> arranged;
     Buffer<uint> cells;
     Kernel<KeysArgs> keys;
-    Kernel<ArrangeArgs> arrange;
+    Kernel<ReorderPhotonsArgs> arrange;
     Kernel<CellsArgs> cellStarts;
-    Buffer<uint> crowded;
+    Buffer<uint> overfull;
     std::optional<Thinning> thinning;
 };
 

@@ -25,17 +25,17 @@ struct PhotonLedger {
 
 enum class MapKind : uint { global = 0, caustic = 1 };
 
-/// Emits `count` photons per pass, `wave` of them at a time, and keeps where they arrive in the order of their indices, those
-/// of one photon in the order of its bounces; the size of waves changes nothing.
+/// Emits `count` photons per pass, `batch` of them at a time, and keeps where they arrive in the order of their indices, those
+/// of one photon in the order of its bounces; the size of batches changes nothing.
 class PhotonTracing {
 public:
-    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed, uint wave);
+    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed, uint batch);
 
     /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
     PhotonLedger trace(uint pass);
     /// Starts photons by a guide's density, or uniformly if it has no nodes; how, and how useful each was, goes to `starts`, if there are any.
-    void guide(Ptr<GuideNode> nodes, Ptr<Start> starts = {});
-    /// Where the photons of each path begin, if there is one wave.
+    void guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> starts = {});
+    /// Where the photons of each path begin, if there is one batch.
     Ptr<uint> places() const { return counts; }
     /// How many photons there are.
     std::uint64_t arrived() const { return held ? heldLedger.stored : 0; }
@@ -44,8 +44,8 @@ public:
 
 private:
     PhotonLedger attempt(uint pass);
-    PhotonLedger attemptWave(uint pass, uint first, uint size, std::uint64_t stored);
-    PhotonLedger traceWave(uint pass, uint first, uint size);
+    PhotonLedger attemptBatch(uint pass, uint first, uint size, std::uint64_t stored);
+    PhotonLedger traceBatch(uint pass, uint first, uint size);
     void place(std::uint64_t first, uint arrived, uint size);
     void bounce(Recording& recording, uint pass, uint first, uint bounce);
 
@@ -55,24 +55,24 @@ private:
     MapKind kind;
     uint count;
     uint seed;
-    uint wave;
+    uint batch;
     Ptr<GuideNode> guideNodes;
-    Ptr<Start> starts;
+    Ptr<PrimarySample> starts;
     std::optional<uint> held; // pass whose photons these are
     PhotonLedger heldLedger;
     std::string name;
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
-    Buffer<Arrival> arrivals;
-    Buffer<uint> counts; // of a path's arrivals, then their prefix sums
-    Buffer<Queue> whole; // all paths of the wave
+    Buffer<PhotonDeposit> deposits;
+    Buffer<uint> counts; // of a path's deposits, then their prefix sums
+    Buffer<Queue> whole; // all paths of the batch
     Buffer<Status> status;
     Kernel<EmitArgs> emit;
     Kernel<TraceArgs> traceKernel;
     Kernel<ScatterArgs> scatter;
     Kernel<ScanArgs> scan;
-    Kernel<PlaceArgs> placeKernel;
+    Kernel<StorePhotonsArgs> placeKernel;
 };
 
 } // namespace vkpm

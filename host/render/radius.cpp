@@ -61,20 +61,20 @@ float widestRadius(const Extent& extent, uint photons, uint nearest) {
     return static_cast<float>(std::min(0.2 * extent.diagonal, std::sqrt(wanted * extent.area / (std::numbers::pi * std::max(photons, 1u)))));
 }
 
-static double leastRadius(const Extent& extent) { return std::ldexp(extent.reach, -18); } // 64 roundings
+static double minRadius(const Extent& extent) { return std::ldexp(extent.reach, -18); } // 64 roundings
 
-bool drownsInRounding(const Extent& extent, float radius) { return radius < leastRadius(extent); }
+bool drownsInRounding(const Extent& extent, float radius) { return radius < minRadius(extent); }
 
 void requireRadius(const Extent& extent, float radius, std::string_view name) {
     if (drownsInRounding(extent, radius))
         throw InputError(fmt::format("{}: found {:.3g}; allowed: at least {:.3g}, since the coordinates of what is lit reach {:.3g} with the digits of 32-bit floats; "
                                      "without it vkpm chooses",
-                                     name, extent.unit * double{radius}, extent.unit * leastRadius(extent), extent.unit * extent.reach));
+                                     name, extent.unit * double{radius}, extent.unit * minRadius(extent), extent.unit * extent.reach));
 }
 
-uint mostLevels(const Extent& extent, float radius) {
+uint maxLevels(const Extent& extent, float radius) {
     const double cells = extent.reach / (2.1 * radius);
-    uint levels = MOST_LEVELS;
+    uint levels = MAX_LEVELS;
     while (levels > 0 && std::ldexp(cells, static_cast<int>(levels)) > 0x1p18) levels--;
     return levels;
 }

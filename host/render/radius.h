@@ -32,7 +32,7 @@ bool drownsInRounding(const Extent& extent, float radius);
 void requireRadius(const Extent& extent, float radius, std::string_view name);
 
 /// How often the grid's cells may be split before the rounding of the scene's coordinates shows in them.
-uint mostLevels(const Extent& extent, float radius);
+uint maxLevels(const Extent& extent, float radius);
 
 /// The gather radius of a pass over that of pass 0, so that noise and bias both vanish for alpha in (0, 1); 1 for
 /// alpha = 1: the closed form of r(i+1)^2 = r(i)^2 (i + alpha) / (i + 1), i from 1 (Knaus & Zwicker 2011, eq. 16).

@@ -11,13 +11,13 @@ namespace vkpm {
 const float cellsPerRadius = 2;
 
 // Mean logarithm of radii in a cell of a map of narrow discs up to which that map answers there.
-const float mostOfNarrow = -0.5f;
+const float maxOfNarrow = -0.5f;
 
 // Cells about such a one that have its radius: out of reach of the discs beyond, which are two wide, so that light which a disc there
 // would take from a bright spot is not in the picture twice.
 const int cellsAround = 3;
 
-RadiusField::RadiusField(Gpu& device) : gpu(device), pilotKernel(gpu, "pilot") {}
+RadiusField::RadiusField(Gpu& device) : gpu(device), pilotKernel(gpu, "measure_radius") {}
 
 void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc, uint stride) {
     PhotonMap map = pilot;
@@ -43,7 +43,7 @@ void RadiusField::measure(const PhotonMap& pilot, uint count, float perDisc, uin
     values = Buffer<float>(gpu, "radius field", logarithms);
     if (found.empty()) return;
 
-    crowded = static_cast<float>(totals[2 * FIELD_CELLS]) * static_cast<float>(stride) / static_cast<float>(count);
+    overfull = static_cast<float>(totals[2 * FIELD_CELLS]) * static_cast<float>(stride) / static_cast<float>(count);
     known = 1;
     std::ranges::sort(found);
     smallest = found.front().first;
@@ -70,7 +70,7 @@ void RadiusField::measureNarrow(PhotonMap map, uint count, float perDisc) {
         all.push_back({{place.x, place.y, place.z}, glm::clamp(photon.logarithm, 0.0f, most)});
         dense += photon.logarithm >= most + 1;
     }
-    crowded = float(dense) / float(looked);
+    overfull = float(dense) / float(looked);
     std::ranges::sort(all);
 
     std::vector<std::pair<float, uint>> found;
@@ -84,7 +84,7 @@ void RadiusField::measureNarrow(PhotonMap map, uint count, float perDisc) {
         const float logarithm = static_cast<float>(-sum / inCell);
         const Place place = first->first;
         first = end;
-        if (logarithm > mostOfNarrow) continue;
+        if (logarithm > maxOfNarrow) continue;
         found.emplace_back(logarithm, inCell);
         photons += inCell;
         for (int x = -cellsAround; x <= cellsAround; x++)

@@ -1,4 +1,4 @@
-/// First gather radii by place: small where photons are dense, wide where they are sparse.
+/// First gather radii by place: small where photons are dense, wide where they are inverseDensity.
 #pragma once
 #include "gpu/recording.h"
 #include "scene/scene.h"
@@ -24,7 +24,7 @@ public:
     float greatest = 0;
     /// Parts of the photons: those where the field is known; those that want less than half of the narrowest radius.
     float known = 0;
-    float crowded = 0;
+    float overfull = 0;
 
 private:
     void measureNarrow(PhotonMap pilot, uint count, float perDisc);
@@ -32,7 +32,7 @@ private:
     float cellsPerUnit = 0;
     bool partial = false;
     Buffer<float> values;
-    Kernel<PilotArgs> pilotKernel;
+    Kernel<MeasureRadiusArgs> pilotKernel;
 };
 
 } // namespace vkpm

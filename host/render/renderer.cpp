@@ -24,11 +24,11 @@ const float causticPhotonsPerDisc = 10;
 // Part of the photons of caustics that must want discs less than half as wide as a map can have for it to get another of narrower ones.
 const float partForNarrow = 0.1f;
 
-// How often its cells are split at most, and bits of keys for their blocks: the few that are crowded should share keys with no others.
+// How often its cells are split at most, and bits of keys for their blocks: the few that are overfull should share keys with no others.
 const uint narrowLevels = 3, narrowBlockBits = 11;
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, WaveSizes waveSizes)
-    : Renderer(device, input, set, sceneFeatures(input, set), waveSizes) {}
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, BatchSizes batchSizes)
+    : Renderer(device, input, set, sceneFeatures(input, set), batchSizes) {}
 
 /// Photons go where any layer has the eye look, so that the layers of a picture are the same whatever else was asked for.
 static Features withAllLayers(const Scene& scene, Settings settings) {
@@ -36,10 +36,10 @@ static Features withAllLayers(const Scene& scene, Settings settings) {
     return sceneFeatures(scene, settings);
 }
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, WaveSizes waveSizes)
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, BatchSizes batchSizes)
     : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)), guideNeeds(input), lightCdf(input.lightCdf), scene(gpu, input, settings),
       flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      waves(waveSizes), global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
+      batches(batchSizes), global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
     constructCamera();
 }
 
@@ -58,7 +58,7 @@ std::optional<MapStages> Renderer::construct(MapKind kind) {
     std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
     if (radius) *radius = static_cast<float>(double{*radius} / extent.unit);
     gpu.compilesAhead = true;
-    MapStages stages{kind, PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, waves.photons),
+    MapStages stages{kind, PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, batches.photons),
                      PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f), !radius};
     if (radius) checkRadius(stages, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
     else measureRadii(stages);
@@ -69,10 +69,10 @@ std::optional<MapStages> Renderer::construct(MapKind kind) {
 
 /// What depends on the size of the film. Kernels that the old one has need not be compiled for the new one.
 void Renderer::constructCamera() {
-    CameraPaths paths(gpu, scene, sceneHas, settings, waves.camera);
+    CameraPaths paths(gpu, scene, sceneHas, settings, batches.camera);
     camera.emplace(std::move(paths));
     if (!tracesLight(sceneHas, settings)) return;
-    LightTracing tracing(gpu, scene, sceneHas, settings, flux, waves.photons);
+    LightTracing tracing(gpu, scene, sceneHas, settings, flux, batches.photons);
     light.emplace(std::move(tracing));
 }
 
@@ -87,7 +87,7 @@ void Renderer::look(const View& view, uvec2 size) {
     for (std::optional<MapStages>* stages : {&global, &caustic})
         if (*stages) (*stages)->ledger = {}, (*stages)->forget();
     if (light) light->ledger = {};
-    weighed = false;
+    lightDistributionLearned = false;
 }
 
 PhotonLedger Renderer::photons(MapKind kind) const {
@@ -120,34 +120,34 @@ void Renderer::measureRadii(MapStages& stages) {
     const Extent lit = extentOf(extent, sees ? stages.guide->places : somePlaces(stages.tracing, stored));
     stages.radius = widestRadius(lit, oneRadius ? settings.photons : settings.causticPhotons, settings.nearest);
     if (!byDensity) return;
-    const uint levels = mostLevels(lit, stages.radius);
+    const uint levels = maxLevels(lit, stages.radius);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
     // What a guide adds to caustics goes half into less noise, half into less blur.
     const float perDisc = oneRadius ? globalPhotonsPerDisc : causticPhotonsPerDisc * std::sqrt(stages.guide ? stages.guide->density : 1.0f);
     stages.field->measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
-        stages.radius = stages.typicalRadius();
+        stages.radius = stages.medianRadius();
         stages.field.reset();
         return;
     }
 
     // Discs of caustics go as far down as their photons want.
     stages.narrow.clear();
-    float crowded = stages.field->crowded, narrowest = std::ldexp(stages.radius, -static_cast<int>(levels));
-    const auto finerLevels = [&] { return std::min(mostLevels(lit, narrowest), narrowLevels); };
+    float overfull = stages.field->overfull, narrowest = std::ldexp(stages.radius, -static_cast<int>(levels));
+    const auto finerLevels = [&] { return std::min(maxLevels(lit, narrowest), narrowLevels); };
     uint finer = finerLevels();
-    for (; crowded > partForNarrow && finer > 0; finer = finerLevels()) {
+    for (; overfull > partForNarrow && finer > 0; finer = finerLevels()) {
         NarrowMap& next = stages.narrow.emplace_back(NarrowMap{PhotonGrid(gpu, "narrow caustic map", narrowBlockBits), RadiusField(gpu), narrowest});
         PhotonMap map = next.grid.build(stages.tracing.photons, stored, narrowest, stages.flux, finer);
         map.partial = 1;
         next.field.measure(map, stored, perDisc);
-        crowded = next.field.crowded;
+        overfull = next.field.overfull;
         narrowest = std::ldexp(narrowest, -static_cast<int>(finer));
     }
-    stages.roundingBinds = crowded > partForNarrow;
+    stages.roundingBinds = overfull > partForNarrow;
 }
 
-float MapStages::typicalRadius() const {
+float MapStages::medianRadius() const {
     const auto typical = std::ranges::find_if(narrow.rbegin(), narrow.rend(), [](const NarrowMap& map) { return map.field.known > 0.5f; });
     if (typical != narrow.rend()) return typical->radius * std::exp2(typical->field.median);
     return field ? radius * std::exp2(field->median) : radius;
@@ -191,14 +191,14 @@ void Renderer::guidePhotons() {
     const auto learns = [&](const std::optional<MapStages>* stages) {
         return *stages && !(*stages)->guide && ((*stages)->kind == MapKind::caustic || guideNeeds.global);
     };
-    const bool weighs = guideNeeds.lights && !weighed && asksLights(eyeHas, settings);
+    const bool weighs = guideNeeds.lights && !lightDistributionLearned && asksLights(eyeHas, settings);
     if (weighs || std::ranges::any_of(maps, learns)) {
         measure();
-        const EyePlaces places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic), narrowMapsOf(caustic)});
+        const CameraPilot places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic), narrowMapsOf(caustic)});
         for (std::optional<MapStages>* stages : maps)
             if (learns(stages)) (*stages)->follow(learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
-        if (weighs) scene.chooseLights(learnLights(gpu, scene, eyeHas, settings.seed, places, lightCdf));
-        weighed = true;
+        if (weighs) scene.chooseLights(learnLightDistribution(gpu, scene, eyeHas, settings.seed, places, lightCdf));
+        lightDistributionLearned = true;
     }
     measure();
 }
@@ -252,7 +252,7 @@ void Renderer::renderPass(uint pass) {
     guidePhotons();
     const PhotonLedger ofGlobal = buildMap(global, pass), ofCaustic = buildMap(caustic, pass);
     const PhotonLedger ofLight = light ? light->trace(pass) : PhotonLedger{};
-    const float nearDistance = global ? nearRadii * global->typicalRadius() * radiusFactor(pass, settings.alpha) : 0;
+    const float nearDistance = global ? nearRadii * global->medianRadius() * radiusFactor(pass, settings.alpha) : 0;
     PhotonMaps maps{.global = global ? global->map : PhotonMap{}, .caustic = caustic ? caustic->map : PhotonMap{}, .nearDistance = nearDistance};
     if (caustic)
         for (const NarrowMap& narrow : caustic->narrow | std::views::reverse) maps.narrow.push_back(narrow.map);

@@ -43,7 +43,7 @@ struct MapStages {
     std::optional<uint> built{}; // pass whose map this is
 
     /// That of most photons in the first pass.
-    float typicalRadius() const;
+    float medianRadius() const;
     /// The least one in the first pass.
     float smallestRadius() const;
     /// How often cells are split for the narrowest radii, but for those of narrow maps.
@@ -56,7 +56,7 @@ struct MapStages {
 };
 
 /// How many paths are under way at a time; the picture does not depend on it.
-struct WaveSizes {
+struct BatchSizes {
     uint photons = 1u << 17;
     uint camera = 1u << 17;
 };
@@ -64,9 +64,9 @@ struct WaveSizes {
 /// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
 class Renderer {
 public:
-    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, WaveSizes waves = {});
+    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, BatchSizes batches = {});
     /// With other features than sceneFeatures(scene, settings), for tests.
-    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, const Features& features, WaveSizes waves = {});
+    Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, const Features& features, BatchSizes batches = {});
 
     /// Renders the pass of an index, the one after the film's last. After Cancelled it goes on where that pass was left.
     void renderPass(uint pass);
@@ -97,10 +97,10 @@ private:
     Extent extent;
     GuideNeeds guideNeeds;
     std::vector<float> lightCdf; // by flux
-    bool weighed = false;        // whether it is known which lights count, see learnLights
+    bool lightDistributionLearned = false;        // whether it is known which lights count, see learnLightDistribution
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
-    WaveSizes waves;
+    BatchSizes batches;
     std::optional<MapStages> global;
     std::optional<MapStages> caustic;
     std::optional<LightTracing> light;

@@ -141,7 +141,7 @@ bool liesOn(const Primitive& p, const Primitive& other, double apart) {
     return areNear({vec3{middle}, vec3{middle}}, boxOf(other, false), apart) && distance2(other, middle) <= apart * apart && std::abs(glm::dot(normalOf(p), normalOf(other))) > 0.9999;
 }
 
-const std::size_t mostPairs = 10'000'000; // of triangles to compare
+const std::size_t maxPairs = 10'000'000; // of triangles to compare
 
 const std::size_t placesLookedAt = 64;
 const double nextTo = 1e-2; // of the shape's diagonal
@@ -162,7 +162,7 @@ bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other) {
     const double apart = std::ldexp(std::max(reachOf(a), reachOf(b)), -17); // rays leave faces by half of this
     if (!areNear(a, b, apart)) return false;
     const std::vector<Primitive> ours = trianglesBy(scene, one, b, apart), theirs = trianglesBy(scene, other, a, apart);
-    if (ours.size() * theirs.size() > mostPairs) return false;
+    if (ours.size() * theirs.size() > maxPairs) return false;
     return std::ranges::any_of(ours, [&](const Primitive& p) { return std::ranges::any_of(theirs, [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); }); });
 }
 
@@ -176,7 +176,7 @@ bool glassMayTouchOpaque(const Scene& scene) {
         about[isGlass] = {glm::min(about[isGlass].low, boxes[isGlass].back().low), glm::max(about[isGlass].high, boxes[isGlass].back().high)};
     }
     for (int kind : {0, 1}) std::erase_if(boxes[kind], [&](const Bounds& box) { return !areNear(box, about[1 - kind], apart); });
-    if (boxes[0].size() * boxes[1].size() > mostPairs) return true;
+    if (boxes[0].size() * boxes[1].size() > maxPairs) return true;
     return std::ranges::any_of(boxes[0], [&](const Bounds& a) { return std::ranges::any_of(boxes[1], [&](const Bounds& b) { return areNear(a, b, apart); }); });
 }
 

@@ -27,7 +27,7 @@ Target sphereOfLit(const Scene& scene);
 /// The sphere about all but far lights, a little wide, so that photons may start on it.
 Target sphereOfNear(const Scene& scene);
 
-/// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in targets.glsl.
+/// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in projection_map.glsl.
 bool isFar(const Scene& scene, const Light& light);
 
 } // namespace vkpm

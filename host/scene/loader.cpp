@@ -54,7 +54,7 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto photons = reader.find("causticPhotons")) settings.causticPhotons = photons->integer(0, many);
     if (const auto radius = reader.find("radius")) settings.radius = radius->number(positive);
     if (const auto radius = reader.find("causticRadius")) settings.causticRadius = radius->number(positive);
-    if (const auto rays = reader.find("gatherRays")) settings.gatherRays = rays->integer(1, mostGatherRays);
+    if (const auto rays = reader.find("gatherRays")) settings.gatherRays = rays->integer(1, maxGatherRays);
     if (const auto nearest = reader.find("nearest")) settings.nearest = nearest->integer(0, 1'000'000);
     if (const auto alpha = reader.find("alpha")) settings.alpha = alpha->number({0, 1, true});
     if (const auto kernel = reader.find("kernel"))
@@ -68,7 +68,7 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto seed = reader.find("seed")) settings.seed = seed->integer(0, std::numeric_limits<uint>::max());
     reader.finish();
 }
-static_assert(KERNEL_CONSTANT == 0 && KERNEL_CONE == 1 && KERNEL_GAUSS == 2 && KERNEL_EPANECHNIKOV == 3);
+static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSITY_KERNEL_GAUSS == 2 && DENSITY_KERNEL_EPANECHNIKOV == 3);
 
 /// Index inside over index outside.
 float readIor(Reader& glass) {
@@ -150,7 +150,7 @@ Scene loadScene(const std::filesystem::path& file) {
     Scene scene;
     scene.name = file.stem().string();
     scene.files.push_back(file);
-    scene.text = readText(file, mostSceneBytes, "give a scene file; its meshes belong into OBJ files");
+    scene.text = readText(file, maxSceneBytes, "give a scene file; its meshes belong into OBJ files");
     if (scene.text.find_first_not_of(" \t\r\n") == std::string::npos)
         refuseFile(file, ":1:1", "the file is empty", "give a scene, {\"camera\": ..., \"shapes\": ...}");
 

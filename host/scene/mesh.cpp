@@ -78,7 +78,7 @@ static std::string_view otherFormat(const std::filesystem::path& file) {
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness) {
     if (const std::string_view format = otherFormat(file); !format.empty())
         refuseFile(file, ":1", fmt::format("found {}", format), "allowed is a Wavefront OBJ file, uncompressed; most programs for meshes export it");
-    const Obj obj = readObj(file, readText(file, mostMeshBytes, "cut it into several meshes"));
+    const Obj obj = readObj(file, readText(file, maxMeshBytes, "cut it into several meshes"));
     std::vector<dvec3> computed;
     if (smoothness == Smoothness::smooth) computed = angleWeightedNormals(obj);
 

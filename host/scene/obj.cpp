@@ -15,7 +15,7 @@ namespace vkpm {
 
 namespace {
 
-constexpr std::size_t mostCorners = 20'000; // of a face: to cut the worst takes seconds
+constexpr std::size_t maxCorners = 20'000; // of a face: to cut the worst takes seconds
 
 /// Takes the next word off a line; empty at its end and before a comment.
 std::string_view takeWord(std::string_view& line) {
@@ -138,9 +138,9 @@ private:
             ++obj.skippedFaces;
             return;
         }
-        if (count > mostCorners)
+        if (count > maxCorners)
             fail(line, fmt::format("a face of {} corners", count),
-                 fmt::format("allowed are {}; cut it into several", mostCorners));
+                 fmt::format("allowed are {}; cut it into several", maxCorners));
         faces.push_back({corners.size(), line});
         if (std::exchange(materialIsNew, false) && std::ranges::find(obj.materials, material) == obj.materials.end()) obj.materials.push_back(material);
     }

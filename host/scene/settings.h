@@ -9,10 +9,10 @@ namespace vkpm {
 /// Layers of a picture that may be asked for, bit by bit; the first are those of LAYER_EMISSION and so on.
 const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect", "albedo", "normal", "depth", "noise", "bias"};
 const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8, ASK_BIAS = 9;
-/// Of INTEGRATOR_PHOTON and so on, and of KERNEL_CONSTANT and so on, by number.
+/// Of INTEGRATOR_PHOTON and so on, and of DENSITY_KERNEL_CONSTANT and so on, by number.
 const std::array integratorNames{"photon", "path", "direct", "photon-map", "light"};
 const std::array kernelNames{"constant", "cone", "gauss", "epanechnikov"};
-const uint mostGatherRays = 1024;
+const uint maxGatherRays = 1024;
 const uint allLayers = (1u << layerNames.size()) - 1;
 
 struct Settings {
@@ -25,7 +25,7 @@ struct Settings {
     std::optional<float> causticRadius;  // likewise of the caustic gather, by region
     uint nearest = 0;                    // first radius: that of the k nearest photons, `radius` at most; 0: not so
     float alpha = 2.0f / 3;              // how fast radii shrink from pass to pass; 1: not at all
-    uint kernel = KERNEL_CONSTANT;       // KERNEL_...
+    uint kernel = DENSITY_KERNEL_CONSTANT;       // KERNEL_...
     bool schlick = false;                // Schlick's Fresnel in place of the exact one
     uint seed = 0;                       //
     uint integrator = INTEGRATOR_PHOTON; // INTEGRATOR_...

@@ -13,7 +13,7 @@ using glm::dvec3;
 
 namespace {
 
-constexpr std::size_t mostPrimitives = LEAF_FIRST; // indices of leaves have that many bits
+constexpr std::size_t maxPrimitives = LEAF_FIRST; // indices of leaves have that many bits
 
 Transform readTransform(Reader& shape) {
     const auto steps = shape.find("transform");
@@ -69,7 +69,7 @@ void ShapeLoader::add(Reader shape) {
     }
 }
 
-const std::size_t mostTouching = 300; // shapes of glass that are compared with each other
+const std::size_t maxTouching = 300; // shapes of glass that are compared with each other
 
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
@@ -82,7 +82,7 @@ void ShapeLoader::finish() {
         auto& [shape, primitives] = glass[i];
         primitives.box = boxOf(scene, primitives);
         for (const std::string& wrong : wrongWithGlass(scene, primitives)) warn(shape, wrong);
-        const auto touched = glass.size() > mostTouching ? glass.begin() + std::ptrdiff_t(i)
+        const auto touched = glass.size() > maxTouching ? glass.begin() + std::ptrdiff_t(i)
                                                          : std::find_if(glass.begin(), glass.begin() + std::ptrdiff_t(i), [&](const auto& other) { return touch(scene, primitives, other.second); });
         if (touched == glass.begin() + std::ptrdiff_t(i)) continue;
         const auto name = touched->first.find("name");
@@ -241,8 +241,8 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangl
 }
 
 void ShapeLoader::requireRoom(const Reader& shape) const {
-    if (scene.primitives.size() + spheres.size() >= mostPrimitives)
-        shape.fail("the scene has too many primitives", fmt::format("allowed are {}", mostPrimitives));
+    if (scene.primitives.size() + spheres.size() >= maxPrimitives)
+        shape.fail("the scene has too many primitives", fmt::format("allowed are {}", maxPrimitives));
 }
 
 /// Of the device, rounded once.

@@ -7,8 +7,8 @@
 
 namespace vkpm {
 
-const std::uint64_t mostSceneBytes = 64ull << 20; // of a scene file; a mesh has files of its own
-const std::uint64_t mostMeshBytes = 1ull << 30;
+const std::uint64_t maxSceneBytes = 64ull << 20; // of a scene file; a mesh has files of its own
+const std::uint64_t maxMeshBytes = 1ull << 30;
 
 /// Why a file cannot be read as text; empty if it can. Only a regular file is sure to have an end.
 std::string fileProblem(const std::filesystem::path& file, bool regular = false);

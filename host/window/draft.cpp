@@ -8,12 +8,12 @@ namespace {
 
 const double secondsPerFrame = 0.05; // wanted; the window needs some time beside
 const double finest = 0.5, coarsest = 1.0 / 32;
-const uint mostPhotons = 50'000;
+const uint maxPhotons = 50'000;
 
 Settings draftSettings(Settings settings) {
     settings.size = {16, 16};
-    settings.photons = std::min(settings.photons, mostPhotons);
-    settings.causticPhotons = std::min(settings.causticPhotons, mostPhotons);
+    settings.photons = std::min(settings.photons, maxPhotons);
+    settings.causticPhotons = std::min(settings.causticPhotons, maxPhotons);
     settings.gatherRays = 1;
     settings.guides = false;
     return settings;

@@ -7,11 +7,11 @@
 namespace vkpm {
 namespace {
 
-const std::size_t mostPoints = 20'000; // photons shown, of each map
+const std::size_t maxPoints = 20'000; // photons shown, of each map
 
 void addPoints(const std::optional<MapStages>& map, std::vector<PhotonPoint>& points) {
     if (!map) return;
-    const std::size_t count = std::min<std::size_t>(map->tracing.arrived(), mostPoints);
+    const std::size_t count = std::min<std::size_t>(map->tracing.arrived(), maxPoints);
     for (const Photon& photon : map->tracing.photons.download(count)) points.push_back({photon.position, photon.color});
 }
 

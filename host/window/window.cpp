@@ -18,7 +18,7 @@ std::string lastProblem; // as GLFW told it
 
 const char* const fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"; // ImGui's own font is not made for dense displays
 const float fontSize = 14;
-const int mostLosses = 3;
+const int maxLosses = 3;
 
 [[noreturn]] void fail(const std::string& call) {
     throw GpuError(fmt::format("{} failed: {}; a window needs a display: vkpm --scene FILE renders without one", call,
@@ -196,7 +196,7 @@ bool Window::draw(const Rectangle& where, const std::function<void()>& interface
         losses = 0;
         return true;
     } catch (const vk::DeviceLostError& lost) {
-        if (++losses > mostLosses) throw GpuError(fmt::format("drawing the window failed: {}; another program may have hung or reset the device", lost.what()));
+        if (++losses > maxLosses) throw GpuError(fmt::format("drawing the window failed: {}; another program may have hung or reset the device", lost.what()));
         openPresenter();
         return false;
     }

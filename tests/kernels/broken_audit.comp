@@ -1,7 +1,7 @@
 // An audit kernel on a driver that computes nothing: every result is 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_audit.h"
 
 ARGS(AuditArgs)

@@ -1,7 +1,7 @@
 // Warps the numbers of starts by a guide.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "../map_args.h"
 #include "guide.glsl"
 #include "shared_photons.h"
@@ -11,7 +11,7 @@ ARGS(GuideStartArgs)
 void main() {
     uint i = threadIndex();
     if (i >= args.count) return;
-    float numbers[START_NUMBERS] = args.starts.at[i].numbers;
-    args.starts.at[i].sparse = guide(GuideNodePtr(args.guide), numbers);
+    float numbers[PRIMARY_DIMENSIONS] = args.starts.at[i].numbers;
+    args.starts.at[i].inverseDensity = guide(GuideNodePtr(args.guide), numbers);
     args.starts.at[i].numbers = numbers;
 }

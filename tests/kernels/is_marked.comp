@@ -1,9 +1,9 @@
 // Whether places are among the marked ones.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "../map_args.h"
-#include "marks.glsl"
+#include "visible_cells.glsl"
 
 ARGS(IsMarkedArgs)
 

@@ -7,4 +7,4 @@
 
 LightValues values(LightPoint p) { return LightValues(p.position, p.magnitude, p.normal); }
 
-MAP(vec2, LightValues, values(sampleLight(LightPtr(args.scene.at[0].lights).at[0], x)))
+MAP(vec2, LightValues, values(sampleEmissionPoint(LightPtr(args.scene.at[0].lights).at[0], x)))

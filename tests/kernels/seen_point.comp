@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "seen.glsl"
+#include "light_sampling.glsl"
 #include "shared_scene.h"
 
-SeenValues values(SeenPoint p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.solidAngle); }
+SeenValues values(LightSample p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.inversePdf); }
 
-MAP(VectorPair, SeenValues, values(seenPoint(LightPtr(args.scene.at[0].lights).at[0], x.a, x.b.xy)))
+MAP(VectorPair, SeenValues, values(sampleLight(LightPtr(args.scene.at[0].lights).at[0], x.a, x.b.xy)))

@@ -2,6 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "frame.glsl"
+#include "directions.glsl"
 
 MAP(uint, vec3, unpackUnit(x))

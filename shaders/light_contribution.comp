@@ -1,7 +1,7 @@
 // What lights bring to points that the eye sees: to each of some points, some lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "direct.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
@@ -10,7 +10,7 @@
 #include "shared_scene.h"
 #include "traverse.glsl"
 
-ARGS(WeighArgs)
+ARGS(LightContributionArgs)
 
 void main() {
     uint i = threadIndex();

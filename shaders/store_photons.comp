@@ -1,20 +1,20 @@
-// Puts the photons of a wave into the map's order, whatever order they arrived in.
+// Puts the photons of a batch into the map's order, whatever order they arrived in.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_paths.h"
 #include "shared_photons.h"
 
-ARGS(PlaceArgs)
+ARGS(StorePhotonsArgs)
 
 void main() {
     uint i = threadIndex();
     if (i >= args.count) return;
-    Arrival arrival = args.arrivals.at[i];
-    Photon photon = arrival.photon;
+    PhotonDeposit deposit = args.deposits.at[i];
+    Photon photon = deposit.photon;
     if (!isFinite(photon.color) || !isFinite(photon.position)) {
         atomicAdd(args.status.at[0].nonfinite[NONFINITE_PHOTON], 1u);
         photon.color = vec3(0.0);
     }
-    args.photons.at[args.first + args.offsets.at[arrival.slot] + arrival.index] = photon;
+    args.photons.at[args.first + args.offsets.at[deposit.slot] + deposit.index] = photon;
 }

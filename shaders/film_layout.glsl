@@ -1,7 +1,7 @@
 // Columns of samples and of their sums: which there are, reading them, and adding to them.
-#ifndef COLUMNS_GLSL
-#define COLUMNS_GLSL
-#include "kernel.glsl"
+#ifndef FILM_LAYOUT_GLSL
+#define FILM_LAYOUT_GLSL
+#include "common.glsl"
 #include "shared_film.h"
 #include "shared_layers.h"
 

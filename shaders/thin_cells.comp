@@ -1,11 +1,11 @@
-// Copies the photons that stay when crowded cells are thinned, with the flux of those that do not, and their keys.
+// Copies the photons that stay when overfull cells are thinned, with the flux of those that do not, and their keys.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "crowd.glsl"
+#include "common.glsl"
+#include "cell_thinning.glsl"
 #include "shared_photons.h"
 
-ARGS(ThinArgs)
+ARGS(ThinCellsArgs)
 
 void main() {
     uint i = threadIndex();

@@ -1,7 +1,7 @@
 // A set of cells of several widths, where the eye looks: bits by hash, so that few cells that were not marked seem to be. Cells of level l are 2^l times as wide as the finest.
-#ifndef MARKS_GLSL
-#define MARKS_GLSL
-#include "kernel.glsl"
+#ifndef VISIBLE_CELLS_GLSL
+#define VISIBLE_CELLS_GLSL
+#include "common.glsl"
 #include "hash.h"
 #include "random.glsl"
 #include "shared_guide.h"
@@ -20,16 +20,16 @@ void mark(uintPtr marks, vec3 position, float finest, uint level) {
     ivec3 first = markedCell(position - 0.5 * width, width);
     for (uint corner = 0u; corner < 8u; corner++) {
         uint bit = markHash(first + ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u), level);
-        atomicOr(marks.at[(bit >> 5) % MARK_WORDS], 1u << (bit & 31u));
+        atomicOr(marks.at[(bit >> 5) % VISIBLE_CELL_WORDS], 1u << (bit & 31u));
     }
-    atomicOr(marks.at[MARK_WORDS], 1u << level);
+    atomicOr(marks.at[VISIBLE_CELL_WORDS], 1u << level);
 }
 
 bool isMarked(uintPtr marks, vec3 position, float finest) {
-    for (uint levels = marks.at[MARK_WORDS]; levels != 0u; levels &= levels - 1u) {
+    for (uint levels = marks.at[VISIBLE_CELL_WORDS]; levels != 0u; levels &= levels - 1u) {
         uint level = uint(findLSB(levels));
         uint bit = markHash(markedCell(position, ldexp(finest, int(level))), level);
-        if ((marks.at[(bit >> 5) % MARK_WORDS] >> (bit & 31u) & 1u) != 0u) return true;
+        if ((marks.at[(bit >> 5) % VISIBLE_CELL_WORDS] >> (bit & 31u) & 1u) != 0u) return true;
     }
     return false;
 }

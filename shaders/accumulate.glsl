@@ -8,23 +8,23 @@
 //
 // Deviations are small differences of large sums. So a run also keeps what roundings took from the sums of its layers (REST), and
 // differences are made before sums.
-#ifndef PIXEL_SUM_GLSL
-#define PIXEL_SUM_GLSL
-#include "kernel.glsl"
-#include "columns.glsl"
+#ifndef ACCUMULATE_GLSL
+#define ACCUMULATE_GLSL
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "shared_film.h"
 #include "shared_layers.h"
 
 // Takes a batch whose mean beauty is `apart` from a run's, and which has coarse deviations of its own, into the deviations of
 // the run: its coarse ones are fine to the run (Chan, Golub & LeVeque 1979, eq. 2.1b).
 void joinDeviations(floatPtr sums, uint pixels, uint pixel, vec3 apart, vec3 batch, JoinWeights w) {
-    vec3 fine = loadColumns(sums, pixels, COLUMN_FINE, pixel);
-    vec3 coarse = loadColumns(sums, pixels, COLUMN_COARSE, pixel);
+    vec3 fine = loadColumns(sums, pixels, COLUMN_SMALL_BATCHES, pixel);
+    vec3 coarse = loadColumns(sums, pixels, COLUMN_LARGE_BATCHES, pixel);
     precise vec3 square = apart * apart;
     precise vec3 newFine = (w.grows != 0u ? coarse : fine) + batch + square * w.fine;
     precise vec3 newCoarse = (w.grows != 0u ? vec3(0.0) : coarse) + square * w.coarse;
-    storeColumns(sums, pixels, COLUMN_FINE, pixel, newFine);
-    storeColumns(sums, pixels, COLUMN_COARSE, pixel, newCoarse);
+    storeColumns(sums, pixels, COLUMN_SMALL_BATCHES, pixel, newFine);
+    storeColumns(sums, pixels, COLUMN_LARGE_BATCHES, pixel, newCoarse);
 }
 
 // What rounding took from the sum s of a and b, exactly (Knuth 1997, section 4.2.2, theorem B).
@@ -46,7 +46,7 @@ vec3 minusTimes(vec3 a, vec3 b, uint times) {
 // Takes the beauty of a batch, columns `other` at the place `slot`, into the deviations and the rest of a run, before the batch is
 // added to its sums. `rest` and `batch` are the batch's own rest and coarse deviations.
 void joinBeauty(floatPtr sums, uint pixels, uint pixel, floatPtr other, uint stride, uint slot, vec3 rest, vec3 batch, JoinWeights w) {
-    vec3 ownRest = loadColumns(sums, pixels, COLUMN_REST, pixel);
+    vec3 ownRest = loadColumns(sums, pixels, COLUMN_COMPENSATION, pixel);
     precise vec3 apart = minusTimes(ownRest, rest, w.times);
     precise vec3 newRest = ownRest + rest;
     for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
@@ -59,7 +59,7 @@ void joinBeauty(floatPtr sums, uint pixels, uint pixel, floatPtr other, uint str
     }
     precise vec3 meanApart = apart * w.perPass;
     joinDeviations(sums, pixels, pixel, meanApart, batch, w);
-    storeColumns(sums, pixels, COLUMN_REST, pixel, newRest);
+    storeColumns(sums, pixels, COLUMN_COMPENSATION, pixel, newRest);
 }
 
 #endif

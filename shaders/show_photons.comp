@@ -1,8 +1,8 @@
 // Shows the photons within a pixel's width of each point asked for, in their colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "density.glsl"
 #include "grid.glsl"
 #include "shared_camera.h"

@@ -1,7 +1,7 @@
 // Checks that nothing was left out that the scene needs. They cost time, so that debug builds alone make them.
-#ifndef FEATURES_GLSL
-#define FEATURES_GLSL
-#include "kernel.glsl"
+#ifndef FEATURE_CHECKS_GLSL
+#define FEATURE_CHECKS_GLSL
+#include "common.glsl"
 #include "shared_scene.h"
 
 void require(DeviceScene scene, bool needed, bool has, uint id) {

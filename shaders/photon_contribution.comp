@@ -1,11 +1,11 @@
 // Counts the photons of each path, and those that came to lie where the eye looks.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "marks.glsl"
+#include "common.glsl"
+#include "visible_cells.glsl"
 #include "shared_guide.h"
 
-ARGS(UsefulArgs)
+ARGS(PhotonContributionArgs)
 
 void main() {
     uint path = threadIndex();

@@ -1,12 +1,12 @@
 // Adds up what photons add to each pixel, in the order of the photons.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "columns.glsl"
+#include "common.glsl"
+#include "film_layout.glsl"
 #include "shared_film.h"
 #include "shared_splat.h"
 
-ARGS(CollectArgs)
+ARGS(SumSplatsArgs)
 
 // The first of the sorted splats that is not of a pixel before this one.
 uint firstOf(uint pixel) {

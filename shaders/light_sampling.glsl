@@ -1,29 +1,29 @@
 // Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays; needs sampling.glsl,
-// frame.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts: 1 / distance^2 has no bound.
-#ifndef SEEN_GLSL
-#define SEEN_GLSL
-#include "kernel.glsl"
-#include "frame.glsl"
+// directions.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts: 1 / distance^2 has no bound.
+#ifndef LIGHT_SAMPLING_GLSL
+#define LIGHT_SAMPLING_GLSL
+#include "common.glsl"
+#include "directions.glsl"
 #include "light.glsl"
 #include "sampling.glsl"
 #include "shared_scene.h"
 
 // A point of a light, and the solid angle that it stands for where it is seen from: one over the density over solid angle.
-struct SeenPoint {
+struct LightSample {
     LightPoint point;
-    float solidAngle;
+    float inversePdf;
 };
 
-SeenPoint seenUniformlyByArea(Light light, vec3 origin, vec2 u) {
-    LightPoint point = sampleLight(light, u);
+LightSample sampleLightArea(Light light, vec3 origin, vec2 u) {
+    LightPoint point = sampleEmissionPoint(light, u);
     vec3 toLight = point.position - origin;
     float distance2 = dot(toLight, toLight);
-    return SeenPoint(point, light.area * abs(dot(toLight, point.normal)) * inversesqrt(distance2) / distance2);
+    return LightSample(point, light.area * abs(dot(toLight, point.normal)) * inversesqrt(distance2) / distance2);
 }
 
 // Spheres seen from outside: uniform over the cone that they fill (Shirley, Wang & Zimmerman 1996). The point is the nearer one
 // on the ray of that direction, put back onto the sphere.
-SeenPoint seenInCone(Light light, vec3 origin, vec2 u) {
+LightSample sampleSphereLight(Light light, vec3 origin, vec2 u) {
     vec3 toCenter = light.a - origin;
     float distance2 = dot(toCenter, toCenter);
     float radius = light.u.x;
@@ -32,20 +32,20 @@ SeenPoint seenInCone(Light light, vec3 origin, vec2 u) {
     float along = dot(toCenter, w);
     vec3 across = toCenter - along * w;
     vec3 n = normalize(-across - sqrt(max(0.0, radius * radius - dot(across, across))) * w);
-    return SeenPoint(LightPoint(light.a + radius * n, abs(light.a) + radius, n), 2.0 * PI * height);
+    return LightSample(LightPoint(light.a + radius * n, abs(light.a) + radius, n), 2.0 * PI * height);
 }
 
 // A corner of a light as seen from a place: where it is, its direction, and one over its distance; zero at the place itself.
 struct Corner {
     vec3 position;
     vec3 w;
-    float nearness;
+    float inverseDistance;
 };
 
 Corner cornerAt(vec3 position) {
     float distance2 = dot(position, position);
-    float nearness = distance2 > 0.0 ? inversesqrt(distance2) : 0.0;
-    return Corner(position, nearness * position, nearness);
+    float inverseDistance = distance2 > 0.0 ? inversesqrt(distance2) : 0.0;
+    return Corner(position, inverseDistance * position, inverseDistance);
 }
 
 // The sum of the directions of two corners. Where they are nearly opposite it is made of a part across the side that joins them
@@ -54,7 +54,7 @@ vec3 sumOf(Corner a, Corner b) {
     if (dot(a.w, b.w) > -0.5) return a.w + b.w;
     vec3 side = normalize(b.position - a.position);
     vec3 across = a.position - dot(a.position, side) * side;
-    vec3 q = across * a.nearness, s = across * b.nearness;
+    vec3 q = across * a.inverseDistance, s = across * b.inverseDistance;
     return q + s + side * (dot(q - s, q + s) / dot(b.w - a.w, side));
 }
 
@@ -82,7 +82,7 @@ SphericalTriangle sphericalTriangle(Corner apex, Corner b, Corner d, vec3 diagon
     t.diagonal = diagonal;
     bool across = dot(b.w, d.w) < dot(apex.w, t.b.w);
     vec3 sum = across ? diagonal : t.bisector;
-    t.halfway = vec2(0.5 * dot(sum, sum) + dot(sum, across ? apex.w : t.d.w), abs(dot(apex.w, normal)) * b.nearness * d.nearness);
+    t.halfway = vec2(0.5 * dot(sum, sum) + dot(sum, across ? apex.w : t.d.w), abs(dot(apex.w, normal)) * b.inverseDistance * d.inverseDistance);
     t.angle = angleAbove(t.halfway);
     return t;
 }
@@ -91,7 +91,7 @@ SphericalTriangle sphericalTriangle(Corner apex, Corner b, Corner d, vec3 diagon
 // without the inverse of a cosine. The arc from the apex through the point ends between b and d, and parts off a triangle of
 // `part`, half its solid angle: the formula for half the angle is linear in the bisector of b and the arc's end, which has the
 // weights x and x r. No weight is negative, so the point is on the light whatever rounding does.
-vec3 pointOf(SphericalTriangle t, float part, float v) {
+vec3 sampleSphericalTriangle(SphericalTriangle t, float part, float v) {
     vec2 p = unitCircle(part / (2.0 * PI));
     float less = max(0.0, t.halfway.y * p.x - t.halfway.x * p.y);
     float x = 0.5 * dot(t.bisector, t.bisector) * p.y + less;
@@ -104,12 +104,12 @@ vec3 pointOf(SphericalTriangle t, float part, float v) {
     vec3 chord = end.x * t.b.w + end.y * t.d.w - t.apex.w;
     float height = min(0.5 * dot(chord, chord), 1.9999999);
     float toEnd = sqrt(v * (2.0 - v * height) / (2.0 - height));
-    vec3 weights = vec3(max(0.0, 1.0 - v * height - (1.0 - height) * toEnd), toEnd * end) * vec3(t.apex.nearness, t.b.nearness, t.d.nearness);
+    vec3 weights = vec3(max(0.0, 1.0 - v * height - (1.0 - height) * toEnd), toEnd * end) * vec3(t.apex.inverseDistance, t.b.inverseDistance, t.d.inverseDistance);
     return t.swapped ? weights.xzy : weights;
 }
 
 // Rectangles and triangles: a rectangle is two triangles on one diagonal, chosen by u.x.
-SeenPoint seenInPolygon(Light light, vec3 origin, vec2 u) {
+LightSample samplePolygonLight(Light light, vec3 origin, vec2 u) {
     vec3 toA = light.a - origin;
     vec3 normal = cross(light.u, light.v);
     Corner b = cornerAt(toA + light.u), d = cornerAt(toA + light.v);
@@ -129,25 +129,25 @@ SeenPoint seenInPolygon(Light light, vec3 origin, vec2 u) {
             part = min(part - first, other.angle);
         }
     }
-    vec3 weights = pointOf(t, part, u.y);
+    vec3 weights = sampleSphericalTriangle(t, part, u.y);
     float sum = weights.x + weights.y + weights.z;
-    if (!(sum > 0.0)) return SeenPoint(flatLightAt(light, vec2(0.5)), 0.0);
-    return SeenPoint(flatLightAt(light, min((weights.yz + (beyond ? weights.x : 0.0)) / sum, 1.0)), 2.0 * whole); // drivers divide to 2.5 ulps
+    if (!(sum > 0.0)) return LightSample(flatLightAt(light, vec2(0.5)), 0.0);
+    return LightSample(flatLightAt(light, min((weights.yz + (beyond ? weights.x : 0.0)) / sum, 1.0)), 2.0 * whole); // drivers divide to 2.5 ulps
 }
 
 // Lights whose middle is within so many of their diagonals are near.
 const float NEAR = 2.0;
 
 // Spheres and what is near by angle; what is far by area, which there is as good and costs less.
-SeenPoint seenPoint(Light light, vec3 origin, vec2 u) {
+LightSample sampleLight(Light light, vec3 origin, vec2 u) {
     vec3 toA = light.a - origin;
     if (isSphere(light)) {
-        if (dot(toA, toA) > light.u.x * light.u.x) return seenInCone(light, origin, u);
+        if (dot(toA, toA) > light.u.x * light.u.x) return sampleSphereLight(light, origin, u);
     } else {
         vec3 toMiddle = toA + 0.5 * (light.u + light.v);
-        if (dot(toMiddle, toMiddle) < NEAR * NEAR * (dot(light.u, light.u) + dot(light.v, light.v))) return seenInPolygon(light, origin, u);
+        if (dot(toMiddle, toMiddle) < NEAR * NEAR * (dot(light.u, light.u) + dot(light.v, light.v))) return samplePolygonLight(light, origin, u);
     }
-    return seenUniformlyByArea(light, origin, u);
+    return sampleLightArea(light, origin, u);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // Local frames, and unit vectors in 32 bits.
-#ifndef FRAME_GLSL
-#define FRAME_GLSL
-#include "kernel.glsl"
+#ifndef DIRECTIONS_GLSL
+#define DIRECTIONS_GLSL
+#include "common.glsl"
 
 // A vector given about +z, turned to be about the unit vector n (Duff et al. 2017).
 vec3 toWorld(vec3 v, vec3 n) {

@@ -2,12 +2,12 @@
 // cell of the radius field.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "grid.glsl"
 #include "radius_field.glsl"
 #include "shared_photons.h"
 
-ARGS(PilotArgs)
+ARGS(MeasureRadiusArgs)
 
 // Photons expected in a disc of the radius that the cells of a level are made for, from those in the eight cells that cover
 // it; on a flat surface these have an area of 4 x 2.1^2 radii squared.

@@ -1,6 +1,6 @@
 // What every kernel starts with: the shared structs, its arguments, and the index of its invocation.
-#ifndef KERNEL_GLSL
-#define KERNEL_GLSL
+#ifndef COMMON_GLSL
+#define COMMON_GLSL
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared.h"

@@ -2,10 +2,10 @@
 // that there is nothing to agree on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_paths.h"
 
-ARGS(TallyArgs)
+ARGS(CompactCountArgs)
 
 void main() {
     uint count = args.queue.at[0].count;

@@ -1,10 +1,10 @@
 // Copies the photons into the order of their sorted keys.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
+#include "common.glsl"
 #include "shared_photons.h"
 
-ARGS(ArrangeArgs)
+ARGS(ReorderPhotonsArgs)
 
 void main() {
     uint i = threadIndex();

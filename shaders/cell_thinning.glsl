@@ -1,9 +1,9 @@
-// Thinning of crowded cells: where more than MOST_PER_CELL photons share a key, they are cut into that many runs of equal
+// Thinning of overfull cells: where more than MAX_PHOTONS_PER_CELL photons share a key, they are cut into that many runs of equal
 // length (to one), one photon of each run is chosen at random, and carries the flux of all. The expectation of every gather stays
-// as it is, and no gather reads more than MOST_PER_CELL photons of a cell. Stratified sampling (Cochran 1977, chapter 5).
-#ifndef CROWD_GLSL
-#define CROWD_GLSL
-#include "kernel.glsl"
+// as it is, and no gather reads more than MAX_PHOTONS_PER_CELL photons of a cell. Stratified sampling (Cochran 1977, chapter 5).
+#ifndef CELL_THINNING_GLSL
+#define CELL_THINNING_GLSL
+#include "common.glsl"
 #include "hash.h"
 #include "random.glsl"
 #include "shared_photons.h"
@@ -14,15 +14,15 @@ struct Run {
     uint size;
 };
 
-// The first photon of the k-th of MOST_PER_CELL runs of `count` photons; 32 bits are enough for it.
+// The first photon of the k-th of MAX_PHOTONS_PER_CELL runs of `count` photons; 32 bits are enough for it.
 uint runStart(uint k, uint count) {
-    return k * (count / MOST_PER_CELL) + k * (count % MOST_PER_CELL) / MOST_PER_CELL;
+    return k * (count / MAX_PHOTONS_PER_CELL) + k * (count % MAX_PHOTONS_PER_CELL) / MAX_PHOTONS_PER_CELL;
 }
 
 // The run that holds photon j of `count`.
 Run runOf(uint j, uint count) {
-    uint k = min(uint(float(j) / float(count) * float(MOST_PER_CELL)), MOST_PER_CELL - 1u); // to a rounding
-    while (k + 1u < MOST_PER_CELL && runStart(k + 1u, count) <= j) k++;
+    uint k = min(uint(float(j) / float(count) * float(MAX_PHOTONS_PER_CELL)), MAX_PHOTONS_PER_CELL - 1u); // to a rounding
+    while (k + 1u < MAX_PHOTONS_PER_CELL && runStart(k + 1u, count) <= j) k++;
     while (runStart(k, count) > j) k--;
     uint first = runStart(k, count);
     return Run(first, runStart(k + 1u, count) - first);
@@ -33,7 +33,7 @@ uint weightAfterThinning(uintPtr keys, uintPtr cells, uint i, uint pass) {
     uint key = keys.at[i];
     uint first = cells.at[key];
     uint count = cells.at[key + 1u] - first;
-    if (count <= MOST_PER_CELL) return 1u;
+    if (count <= MAX_PHOTONS_PER_CELL) return 1u;
     Run run = runOf(i - first, count);
     uint chosen;
     uint unused;

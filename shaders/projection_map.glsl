@@ -1,9 +1,9 @@
 // Aiming photons at the bounding spheres of specular shapes (the projection map of Jensen & Christensen 1995).
-#ifndef TARGETS_GLSL
-#define TARGETS_GLSL
-#include "kernel.glsl"
-#include "features.glsl"
-#include "frame.glsl"
+#ifndef PROJECTION_MAP_GLSL
+#define PROJECTION_MAP_GLSL
+#include "common.glsl"
+#include "feature_checks.glsl"
+#include "directions.glsl"
 #include "light.glsl"
 #include "sampling.glsl"
 #include "shared_scene.h"

@@ -1,14 +1,14 @@
 // Marks where camera paths would ask a photon map: what a gather reads, and what lies between it and the next path's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "kernel.glsl"
-#include "marks.glsl"
+#include "common.glsl"
+#include "visible_cells.glsl"
 #include "radius_field.glsl"
 #include "shared_camera.h"
 #include "shared_guide.h"
 #include "shared_paths.h"
 
-ARGS(MarkArgs)
+ARGS(MarkVisibleArgs)
 
 void main() {
     Queue queue = args.queue.at[0];
