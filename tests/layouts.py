@@ -58,7 +58,8 @@ def main() -> None:
     if len(asserts) < 100:
         sys.exit(f"layouts.py: found {len(asserts)} layouts; kernels were compiled without names")
     headers = sorted((Path(__file__).parent.parent / "shaders").glob("shared_*.h"))
-    lines = ["// Made by layouts.py.", *(f'#include "{header.name}"' for header in headers), "#include <cstddef>", *sorted(asserts)]
+    includes = [f'#include "{header.name}"' for header in headers]
+    lines = ["// Made by layouts.py.", *includes, "#include <cstddef>", *sorted(asserts)]
     output.write_text("\n".join(lines) + "\n")
 
 

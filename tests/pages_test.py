@@ -1,4 +1,4 @@
-"""The pages (*.md): README.md is short, links lead somewhere, generated tables have their form, and nothing stands twice."""
+"""The pages (*.md): README.md is short, links lead somewhere, tables have their form, and nothing stands twice."""
 
 import importlib
 import re
@@ -24,19 +24,30 @@ HOSTILE = ROOT / "tests/hostile", ROOT / "tools"  # where the hostile cases may 
 def files() -> set[str]:
     """All files that belong to the project, relative to its root."""
     try:
-        listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True,
-                                check=True).stdout
+        listed = subprocess.run(
+            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
         found = {name for name in listed.split("\0") if name}
     except (OSError, subprocess.CalledProcessError):  # not a checkout
-        found = {str(path.relative_to(ROOT)) for path in ROOT.rglob("*") if path.relative_to(ROOT).parts[0] not in ("build", ".git")}
+        found = {
+            str(path.relative_to(ROOT))
+            for path in ROOT.rglob("*")
+            if path.relative_to(ROOT).parts[0] not in ("build", ".git")
+        }
     return {name for name in found if (ROOT / name).is_file()}
 
 
 def prose(text: str) -> str:
     """A page without its code; lines keep their numbers."""
+
     def blank(match: re.Match) -> str:
         return re.sub(r"[^\n]", "", match[0])
-    text = re.sub(r"^```.*?^```", blank, text, flags=re.M | re.S)
+
+    text = re.sub(r"^```.*?^```", blank, text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"(?<=\n\n)(?:    .*\n|\n)+", blank, text)
     return re.sub(r"`[^`\n]*`", lambda match: "`" * len(match[0]), text)
 
@@ -44,8 +55,8 @@ def prose(text: str) -> str:
 def anchors(text: str) -> set[str]:
     """The anchors that GitHub gives the headings of a page."""
     found, seen = set(), Counter()
-    code = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
-    for heading in re.findall(r"^#+ +(.*?)[ #]*$", code, flags=re.M):
+    code = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    for heading in re.findall(r"^#+ +(.*?)[ #]*$", code, flags=re.MULTILINE):
         words = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
         name = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
         found.add(f"{name}-{seen[name]}" if seen[name] else name)
@@ -59,7 +70,9 @@ def broken_links(pages: dict[str, str], known: set[str]) -> list[str]:
     problems = []
     for page, text in pages.items():
         plain = prose(text)
-        links = re.finditer(r"\]\(\s*<?([^()\s>]+)>?[^()]*\)|^\[[^\]]+\]:\s*(\S+)|(?:src|href)=\"([^\"]+)\"", plain, flags=re.M)
+        links = re.finditer(
+            r"\]\(\s*<?([^()\s>]+)>?[^()]*\)|^\[[^\]]+\]:\s*(\S+)|(?:src|href)=\"([^\"]+)\"", plain, flags=re.MULTILINE
+        )
         for link in links:
             target = link[1] or link[2] or link[3]
             if re.match(r"[a-z][a-z0-9+.-]*:", target):
@@ -87,7 +100,11 @@ def twice(pages: dict[str, str]) -> list[str]:
     for page, text in pages.items():
         for words in paragraphs(text):
             where.setdefault(words, []).append(page)
-    return [f"{' and '.join(names)}: both have the paragraph \"{' '.join(words.split()[:8])} ...\"" for words, names in where.items() if len(names) > 1]
+    return [
+        f'{" and ".join(names)}: both have the paragraph "{" ".join(words.split()[:8])} ..."'
+        for words, names in where.items()
+        if len(names) > 1
+    ]
 
 
 # Generated tables.
@@ -95,30 +112,43 @@ def twice(pages: dict[str, str]) -> list[str]:
 
 def table(pages: dict[str, str], name: str, header: list[str], problems: list[str]) -> list[list[str]]:
     """The rows of the one table between the markers of a name."""
-    found = [(page, match) for page, text in pages.items()
-             for match in re.findall(rf"<!-- {name}: begin -->\n(.*?)<!-- {name}: end -->", text, flags=re.S)]
+    found = [
+        (page, match)
+        for page, text in pages.items()
+        for match in re.findall(rf"<!-- {name}: begin -->\n(.*?)<!-- {name}: end -->", text, flags=re.DOTALL)
+    ]
     if len(found) != 1:
-        problems.append(f"{len(found)} tables stand between <!-- {name}: begin --> and <!-- {name}: end -->; one should")
+        problems.append(
+            f"{len(found)} tables stand between <!-- {name}: begin --> and <!-- {name}: end -->; one should"
+        )
         return []
     page, text = found[0]
     lines = text.splitlines()
     rows = [[cell.strip() for cell in line.removeprefix("|").removesuffix("|").split(" | ")] for line in lines]
-    outside = [line for line in lines if not (line.startswith("| ") or line.startswith("|-")) or not line.endswith("|")]
-    problems += [f"{page}, table {name}: a line that is no row: \"{line}\"" for line in outside]
+    outside = [line for line in lines if not line.startswith(("| ", "|-")) or not line.endswith("|")]
+    problems += [f'{page}, table {name}: a line that is no row: "{line}"' for line in outside]
     if rows[:1] != [header]:
         problems.append(f"{page}, table {name}: the header is {rows[:1]}; its tool writes {header}")
     if len(lines) < 3 or not re.fullmatch(r"\|( ?-+ ?\|)+", lines[1]) or lines[1].count("|") != len(header) + 1:
-        problems.append(f"{page}, table {name}: the second line does not have {len(header)} columns of dashes, or no rows follow")
+        problems.append(
+            f"{page}, table {name}: the second line does not have {len(header)} columns of dashes, or no rows follow"
+        )
     body = rows[2:]
-    problems += [f"{page}, table {name}: the row \"{' | '.join(row)}\" has {len(row)} cells, not {len(header)}" for row in body if len(row) != len(header)]
+    problems += [
+        f'{page}, table {name}: the row "{" | ".join(row)}" has {len(row)} cells, not {len(header)}'
+        for row in body
+        if len(row) != len(header)
+    ]
     return [row for row in body if len(row) == len(header)]
 
 
 def check_precision(pages: dict[str, str], problems: list[str]) -> None:
     """A table of the numbers that tests/precision_test.cpp prints."""
-    for row in table(pages, "precision", PRECISION, problems):
-        if not all(re.fullmatch(r"\d+(\.\d+)?(e[+-]\d+)?", cell) for cell in row[2:]):
-            problems.append(f"table precision: the row of \"{row[0]}, {row[1]}\" has cells that are no numbers")
+    problems += [
+        f'table precision: the row of "{row[0]}, {row[1]}" has cells that are no numbers'
+        for row in table(pages, "precision", PRECISION, problems)
+        if not all(re.fullmatch(r"\d+(\.\d+)?(e[+-]\d+)?", cell) for cell in row[2:])
+    ]
 
 
 class Pretended:
@@ -144,7 +174,11 @@ class Pretended:
 def case_sources() -> list[Path]:
     """The Python files that register hostile cases."""
     for folder in HOSTILE:
-        found = [path for path in sorted(folder.glob("*.py")) if re.search(r"^ *@?case\(", path.read_text(), flags=re.M)]
+        found = [
+            path
+            for path in sorted(folder.glob("*.py"))
+            if re.search(r"^ *@?case\(", path.read_text(), flags=re.MULTILINE)
+        ]
         if found:
             return found
     return []
@@ -153,11 +187,20 @@ def case_sources() -> list[Path]:
 def known_cases(sources: list[Path]) -> list[tuple[str, str, str]]:
     """Group, name and expectation of each case, by importing what registers them."""
     sys.dont_write_bytecode = True
-    sys.path[:0] = [str(sources[0].parent), *(str(path) for path in (ROOT / "tools").iterdir() if path.is_dir()), str(ROOT / "tools")]
+    sys.path[:0] = [
+        str(sources[0].parent),
+        *(str(path) for path in (ROOT / "tools").iterdir() if path.is_dir()),
+        str(ROOT / "tools"),
+    ]
     sys.meta_path.append(Pretended)
     for source in sources:
         importlib.import_module(source.stem)
-    cases = [case for module in list(sys.modules.values()) if isinstance(found := vars(module).get("CASES"), list) for case in found]
+    cases = [
+        case
+        for module in list(sys.modules.values())
+        if isinstance(found := vars(module).get("CASES"), list)
+        for case in found
+    ]
     return list(dict.fromkeys((case.group, case.name, case.expected) for case in cases))
 
 
@@ -172,16 +215,20 @@ def check_extremes(pages: dict[str, str], problems: list[str]) -> None:
         return
     try:
         cases = known_cases(sources)
-    except Exception as error:  # noqa: BLE001 - whatever an import needs
-        least = sum(len(re.findall(r"^ *@?case\(", source.read_text(), flags=re.M)) for source in sources)
+    except Exception as error:
+        least = sum(len(re.findall(r"^ *@?case\(", source.read_text(), flags=re.MULTILINE)) for source in sources)
         print(f"cases are only counted, since {sources[0].parent} cannot be imported: {error!r}")
         if len(rows) < least:
             problems.append(f"table extremes: {len(rows)} rows for {least} cases or more")
         return
     written = Counter(tuple(row[:3]) for row in rows)
-    problems += [f"table extremes: no row \"{' | '.join(case)}\"; run tools/extremes --heavy -o FOLDER and take its table.md" for case in cases if case not in written]
-    problems += [f"table extremes: a row of no case, \"{' | '.join(row)}\"" for row in written if row not in cases]
-    problems += [f"table extremes: \"{row[1]}\" has {count} rows" for row, count in written.items() if count > 1]
+    problems += [
+        f'table extremes: no row "{" | ".join(case)}"; run tools/extremes --heavy -o FOLDER and take its table.md'
+        for case in cases
+        if case not in written
+    ]
+    problems += [f'table extremes: a row of no case, "{" | ".join(row)}"' for row in written if row not in cases]
+    problems += [f'table extremes: "{row[1]}" has {count} rows' for row, count in written.items() if count > 1]
 
 
 def main() -> int:
@@ -191,7 +238,9 @@ def main() -> int:
     problems: list[str] = []
     length = len(pages["README.md"].splitlines())
     if length > MOST_LINES:
-        problems.append(f"README.md: {length} lines; allowed: {MOST_LINES}. Move some to the README of the folder they are about")
+        problems.append(
+            f"README.md: {length} lines; allowed: {MOST_LINES}. Move some to the README of the folder they are about"
+        )
     problems += broken_links(pages, known) + twice(pages)
     check_precision(pages, problems)
     check_extremes(pages, problems)

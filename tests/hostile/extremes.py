@@ -46,7 +46,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=1, metavar="N",
                         help="renders N cases at a time; slow ones are timed again alone (default 1)")
     parser.add_argument("--truths", action="store_true",
-                        help="renders what these cases are judged by anew, and writes it to tests/data/hostile_truths.json")
+                        help="renders what these cases are judged by anew, into tests/data/hostile_truths.json")
     return parser.parse_args()
 
 
