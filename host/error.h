@@ -9,7 +9,8 @@ struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The environment failed: no device, a failing driver, no memory. Says the call, the cause and what helps. Exit code 1.
+/// The environment failed: no device, a failing driver, no memory. Says the call, the cause and what helps. Exit
+/// code 1.
 struct GpuError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -31,7 +31,7 @@ void onSignal(int) {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     std::signal(SIGXCPU, SIG_IGN); // it comes each second
-    std::signal(SIGHUP, SIG_IGN); // a terminal that is closed sends it, and its shell once more
+    std::signal(SIGHUP, SIG_IGN);  // a terminal that is closed sends it, and its shell once more
     errno = saved;
 }
 

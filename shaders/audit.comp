@@ -15,9 +15,7 @@ uint longLoop(uint trips) {
 }
 
 // A number that the compiler does not know.
-float opaque(float x) {
-    return uintBitsToFloat(floatBitsToUint(x) + (args.trips == 0u ? 1u : 0u));
-}
+float opaque(float x) { return uintBitsToFloat(floatBitsToUint(x) + (args.trips == 0u ? 1u : 0u)); }
 
 uint floats(uint index) {
     float large = opaque(3.0e38);
@@ -29,17 +27,22 @@ uint floats(uint index) {
 
 uint result(uint index) {
     switch (args.test) {
-    case AUDIT_LOOP: return longLoop(args.trips) + index;
-    case AUDIT_DIVERGENT: return longLoop(args.trips - 16u * index);
-    case AUDIT_SHARED: return exchange[GROUP - 1u - gl_LocalInvocationIndex] * 3u + 1u;
-    default: return floats(index);
+    case AUDIT_LOOP:
+        return longLoop(args.trips) + index;
+    case AUDIT_DIVERGENT:
+        return longLoop(args.trips - 16u * index);
+    case AUDIT_SHARED:
+        return exchange[GROUP - 1u - gl_LocalInvocationIndex] * 3u + 1u;
+    default:
+        return floats(index);
     }
 }
 
 void main() {
     uint index = threadIndex();
     if (args.test == AUDIT_WIDE) { // one result a group
-        if (groupIndex() < args.count && gl_LocalInvocationIndex == GROUP - 1u) args.results.at[groupIndex()] = index ^ 0x5bd1e995u;
+        if (groupIndex() < args.count && gl_LocalInvocationIndex == GROUP - 1u)
+            args.results.at[groupIndex()] = index ^ 0x5bd1e995u;
         return;
     }
     exchange[gl_LocalInvocationIndex] = index;

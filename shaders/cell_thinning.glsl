@@ -1,6 +1,7 @@
-// Thinning of overfull cells: where more than MAX_PHOTONS_PER_CELL photons share a key, they are cut into that many runs of equal
-// length (to one), one photon of each run is chosen at random, and carries the flux of all. The expectation of every gather stays
-// as it is, and no gather reads more than MAX_PHOTONS_PER_CELL photons of a cell. Stratified sampling (Cochran 1977, chapter 5).
+// Thinning of overfull cells: where more than MAX_PHOTONS_PER_CELL photons share a key, they are cut into that many
+// runs of equal length (to one), one photon of each run is chosen at random, and carries the flux of all. The
+// expectation of every gather stays as it is, and no gather reads more than MAX_PHOTONS_PER_CELL photons of a cell.
+// Stratified sampling (Cochran 1977, chapter 5).
 #ifndef CELL_THINNING_GLSL
 #define CELL_THINNING_GLSL
 #include "common.glsl"
@@ -21,7 +22,8 @@ uint runStart(uint k, uint count) {
 
 // The run that holds photon j of `count`.
 Run runOf(uint j, uint count) {
-    uint k = min(uint(float(j) / float(count) * float(MAX_PHOTONS_PER_CELL)), MAX_PHOTONS_PER_CELL - 1u); // to a rounding
+    uint k =
+        min(uint(float(j) / float(count) * float(MAX_PHOTONS_PER_CELL)), MAX_PHOTONS_PER_CELL - 1u); // to a rounding
     while (k + 1u < MAX_PHOTONS_PER_CELL && runStart(k + 1u, count) <= j) k++;
     while (runStart(k, count) > j) k--;
     uint first = runStart(k, count);

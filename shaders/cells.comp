@@ -1,5 +1,5 @@
-// Where each key starts among the sorted keys: each photon writes the starts of the keys from its predecessor's to its own. And
-// whether any key has too many.
+// Where each key starts among the sorted keys: each photon writes the starts of the keys from its predecessor's to its
+// own. And whether any key has too many.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -12,6 +12,7 @@ void main() {
     if (i > args.count) return;
     uint first = i == 0u ? 0u : args.keys.at[i - 1u] + 1u;
     uint last = i == args.count ? args.cellMask + 1u : args.keys.at[i];
-    if (i + MAX_PHOTONS_PER_CELL < args.count && args.keys.at[i] == args.keys.at[i + MAX_PHOTONS_PER_CELL]) args.overfull.at[0] = 1u;
+    if (i + MAX_PHOTONS_PER_CELL < args.count && args.keys.at[i] == args.keys.at[i + MAX_PHOTONS_PER_CELL])
+        args.overfull.at[0] = 1u;
     for (uint key = first; key <= last; key++) args.cells.at[key] = i;
 }

@@ -7,25 +7,21 @@
 
 layout(local_size_x = GROUP) in;
 
-#define ARGS(T) layout(push_constant, scalar) uniform PushConstants { T args; };
+#define ARGS(T)                                                                                                        \
+    layout(push_constant, scalar) uniform PushConstants { T args; };
 
 const float PI = 3.14159265;
 const float GREATEST = 3.4028235e38; // of floats: compilers may take it that there are no infinities
 
 // Index over all groups of a dispatch, which may have several rows.
-uint groupIndex() {
-    return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-}
+uint groupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
-uint threadIndex() {
-    return groupIndex() * GROUP + gl_LocalInvocationIndex;
-}
+uint threadIndex() { return groupIndex() * GROUP + gl_LocalInvocationIndex; }
 
-float maxComponent(vec3 v) {
-    return max(v.x, max(v.y, v.z));
-}
+float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-// The direction of u x v. Scaled by a power of two first, which changes no bit, the squares of edges of any length stay numbers.
+// The direction of u x v. Scaled by a power of two first, which changes no bit, the squares of edges of any length stay
+// numbers.
 vec3 directionOfCross(vec3 u, vec3 v) {
     float longest = maxComponent(max(abs(u), abs(v)));
     float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u));
@@ -33,17 +29,11 @@ vec3 directionOfCross(vec3 u, vec3 v) {
 }
 
 // Of linear Rec. 709.
-float luminance(vec3 color) {
-    return dot(color, vec3(0.2126, 0.7152, 0.0722));
-}
+float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
 // Without leaning on comparisons of NaN, which drivers may assume away.
-bool isFinite(float x) {
-    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
-}
+bool isFinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 
-bool isFinite(vec3 v) {
-    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
-}
+bool isFinite(vec3 v) { return isFinite(v.x) && isFinite(v.y) && isFinite(v.z); }
 
 #endif

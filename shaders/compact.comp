@@ -8,9 +8,7 @@
 ARGS(CompactArgs)
 
 // Where a kind starts in the new list; blocks may be 0.
-uint firstOf(uint kind, uint blocks) {
-    return args.sums.at[kind * blocks];
-}
+uint firstOf(uint kind, uint blocks) { return args.sums.at[kind * blocks]; }
 
 // The queue that the next steps run on.
 void writeQueue(uint kind, uint blocks) {
@@ -33,7 +31,8 @@ void main() {
 
     // All kinds there may be, so that the loops are unrolled; one that there is not has no flags.
     uint next[EYE_QUEUES];
-    for (uint kind = 0u; kind < EYE_QUEUES; kind++) next[kind] = args.sums.at[min(kind, args.kinds - 1u) * blocks + block];
+    for (uint kind = 0u; kind < EYE_QUEUES; kind++)
+        next[kind] = args.sums.at[min(kind, args.kinds - 1u) * blocks + block];
     uint last = min((block + 1u) * COMPACTION_BLOCK, count);
     for (uint place = block * COMPACTION_BLOCK; place < last; place++) {
         uint flags = args.flags.at[place];

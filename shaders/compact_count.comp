@@ -1,5 +1,5 @@
-// Counts the flags of each kind in each block of a list: the first step of a compaction. An invocation takes a block, so
-// that there is nothing to agree on.
+// Counts the flags of each kind in each block of a list: the first step of a compaction. An invocation takes a block,
+// so that there is nothing to agree on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"

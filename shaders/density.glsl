@@ -8,17 +8,18 @@
 #include "shared_photons.h"
 
 // Weight of a photon at squared distance x2 (in units of the radius), over the mean weight of the disc.
-// Cone with k = 1.1 (Jensen 1996), Gauss with alpha = 0.918, beta = 1.953 (Pavicic 1990, as in Jensen 2001, here normalised),
-// Epanechnikov 1969.
+// Cone with k = 1.1 (Jensen 1996), Gauss with alpha = 0.918, beta = 1.953 (Pavicic 1990, as in Jensen 2001, here
+// normalised), Epanechnikov 1969.
 float densityWeight(uint kernel, float x2) {
     if (kernel == DENSITY_KERNEL_CONE) return (1.0 - sqrt(x2) / 1.1) / 0.39393939;
-    if (kernel == DENSITY_KERNEL_GAUSS) return 0.918 * (1.0 - (1.0 - exp(-1.953 * 0.5 * x2)) / (1.0 - exp(-1.953))) / 0.5311549;
+    if (kernel == DENSITY_KERNEL_GAUSS)
+        return 0.918 * (1.0 - (1.0 - exp(-1.953 * 0.5 * x2)) / (1.0 - exp(-1.953))) / 0.5311549;
     if (kernel == DENSITY_KERNEL_EPANECHNIKOV) return 2.0 * (1.0 - x2);
     return 1.0;
 }
 
-// A photon at offset d counts for a query if it is nearer than the radius and lies near the tangent plane, within a tenth of the
-// radius, so that curved surfaces keep their photons,
+// A photon at offset d counts for a query if it is nearer than the radius and lies near the tangent plane, within a
+// tenth of the radius, so that curved surfaces keep their photons,
 bool isNear(vec3 d, Query query, float radius) {
     return dot(d, d) < radius * radius && abs(dot(d, query.normal)) <= 0.1 * radius;
 }
@@ -51,8 +52,8 @@ void addPhoton(PhotonMap map, uint i, float distance2, float radius, inout Sums 
     if (hasBias) sums.inner += x2 < 0.5 ? color * densityWeight(kernel, 2.0 * x2) : vec3(0.0);
 }
 
-// Sum of the photons' colours under the kernel, per area of the disc. If bias is estimated, `inner` is the same of the disc of
-// half the area in the same photons, else zero.
+// Sum of the photons' colours under the kernel, per area of the disc. If bias is estimated, `inner` is the same of the
+// disc of half the area in the same photons, else zero.
 vec3 estimateWithin(PhotonMap map, Query query, float radius, out vec3 inner) {
     Cells cells = cellsAround(map, query.position, query.normal, radius);
     Sums sums = Sums(vec3(0.0), vec3(0.0));

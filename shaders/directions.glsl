@@ -29,8 +29,6 @@ vec3 unpackDirection(uint code) {
     return v;
 }
 
-vec3 unpackUnit(uint code) {
-    return normalize(unpackDirection(code));
-}
+vec3 unpackUnit(uint code) { return normalize(unpackDirection(code)); }
 
 #endif

@@ -1,5 +1,6 @@
-// Starts photons on the lights: over the hemisphere or, of far lights, aimed at the scene; for the caustic map, aimed at the bounding
-// spheres of specular shapes. Those of lights that are remote start where they enter the scene, if no other far light hides them.
+// Starts photons on the lights: over the hemisphere or, of far lights, aimed at the scene; for the caustic map, aimed
+// at the bounding spheres of specular shapes. Those of lights that are remote start where they enter the scene, if no
+// other far light hides them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -7,11 +8,11 @@
 #include "guide.glsl"
 #include "light.glsl"
 #include "offset.glsl"
+#include "projection_map.glsl"
 #include "random.glsl"
 #include "shared_paths.h"
 #include "shared_photons.h"
 #include "shared_scene.h"
-#include "projection_map.glsl"
 #include "traverse.glsl"
 
 ARGS(EmitArgs)
@@ -44,7 +45,8 @@ void main() {
         origin = entered;
     }
     float weight = aim.weight;
-    if (hasGuide && args.starts != uvec2(0u)) PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
+    if (hasGuide && args.starts != uvec2(0u))
+        PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
     weight *= inverseDensity;
 
     vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);

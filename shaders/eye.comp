@@ -1,8 +1,8 @@
 // Starts one path per pixel at the camera, at a place within the pixel that differs from pass to pass (box filter).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common.glsl"
 #include "camera.glsl"
+#include "common.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"

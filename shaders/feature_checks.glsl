@@ -23,9 +23,13 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
     bool glass = material.kind == MATERIAL_GLASS;
     require(scene, triangle, hasTriangles, id_hasTriangles);
     require(scene, !triangle, hasSpheres, id_hasSpheres);
-    require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals, id_hasSmoothNormals);
+    require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals,
+            id_hasSmoothNormals);
     require(scene, material.kind == MATERIAL_DIFFUSE, hasDiffuse, id_hasDiffuse);
-    require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE && material.kind == MATERIAL_DIFFUSE, hasSmoothDiffuse, id_hasSmoothDiffuse);
+    require(scene,
+            triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE &&
+                material.kind == MATERIAL_DIFFUSE,
+            hasSmoothDiffuse, id_hasSmoothDiffuse);
     require(scene, material.kind == MATERIAL_MIRROR, hasMirror, id_hasMirror);
     require(scene, glass, hasGlass, id_hasGlass);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);

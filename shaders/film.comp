@@ -1,9 +1,9 @@
 // Takes one pass into the sums of a run. A sample that is not finite is counted, and black.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "accumulate.glsl"
 #include "common.glsl"
 #include "film_layout.glsl"
-#include "accumulate.glsl"
 #include "shared_film.h"
 #include "shared_layers.h"
 
@@ -22,7 +22,8 @@ void main() {
     if (slot >= args.count) return;
     uint pixel = args.firstPixel + slot;
     blacken(slot);
-    if (hasNoise) joinBeauty(args.sums, args.pixels, pixel, args.samples, args.stride, slot, vec3(0.0), vec3(0.0), args.weights);
+    if (hasNoise)
+        joinBeauty(args.sums, args.pixels, pixel, args.samples, args.stride, slot, vec3(0.0), vec3(0.0), args.weights);
     if (hasBias) {
         precise float bias = luminance(loadColumns(args.samples, args.stride, COLUMN_BIAS, slot));
         precise float square = bias * bias;

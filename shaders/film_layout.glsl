@@ -8,22 +8,32 @@
 // Whether a layer is rendered at all.
 bool hasLayer(uint layer) {
     switch (layer) {
-    case LAYER_EMISSION: return hasEmissionLayer;
-    case LAYER_DIRECT: return hasDirectLayer;
-    case LAYER_SPECULAR: return hasSpecularLayer;
-    case LAYER_CAUSTIC: return hasCausticLayer;
-    default: return hasIndirectLayer;
+    case LAYER_EMISSION:
+        return hasEmissionLayer;
+    case LAYER_DIRECT:
+        return hasDirectLayer;
+    case LAYER_SPECULAR:
+        return hasSpecularLayer;
+    case LAYER_CAUSTIC:
+        return hasCausticLayer;
+    default:
+        return hasIndirectLayer;
     }
 }
 
 // The first of a layer's three columns.
 uint layerColumn(uint layer) {
     switch (layer) {
-    case LAYER_EMISSION: return COLUMN_EMISSION;
-    case LAYER_DIRECT: return COLUMN_DIRECT;
-    case LAYER_SPECULAR: return COLUMN_SPECULAR;
-    case LAYER_CAUSTIC: return COLUMN_CAUSTIC;
-    default: return COLUMN_INDIRECT;
+    case LAYER_EMISSION:
+        return COLUMN_EMISSION;
+    case LAYER_DIRECT:
+        return COLUMN_DIRECT;
+    case LAYER_SPECULAR:
+        return COLUMN_SPECULAR;
+    case LAYER_CAUSTIC:
+        return COLUMN_CAUSTIC;
+    default:
+        return COLUMN_INDIRECT;
     }
 }
 

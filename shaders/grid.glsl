@@ -1,6 +1,7 @@
-// The sorted spatial hash grid. Its widest cells are a bit more than two of the map's radii wide; each is split into eight,
-// `levels` times over. A block is 2 x 2 x 2 of the widest cells: a key is the hash of the block, followed by the places of the
-// nested cells, an octant of three bits a level, so that the keys of any cell at any level are neighbours.
+// The sorted spatial hash grid. Its widest cells are a bit more than two of the map's radii wide; each is split into
+// eight, `levels` times over. A block is 2 x 2 x 2 of the widest cells: a key is the hash of the block, followed by the
+// places of the nested cells, an octant of three bits a level, so that the keys of any cell at any level are
+// neighbours.
 //
 // A disc is looked up at the level whose cells are just wide enough for the eight around its centre to cover it; these
 // differ in their last octant, so that none is read twice.
@@ -40,7 +41,8 @@ struct Cells {
     ivec3 high;
 };
 
-// Those of a disc about the normal, a tenth of its radius thick on either side; all those of a ball if the normal is zero.
+// Those of a disc about the normal, a tenth of its radius thick on either side; all those of a ball if the normal is
+// zero.
 Cells cellsAround(PhotonMap map, vec3 position, vec3 normal, float radius) {
     uint level = 0u;
     for (float wide = 0.5 * map.radius; level < map.levels && radius <= wide; wide *= 0.5) level++;
@@ -51,12 +53,12 @@ Cells cellsAround(PhotonMap map, vec3 position, vec3 normal, float radius) {
     vec3 boxRounding = rounding + 2.4e-7 * abs(place); // of the photon's place and of the query's
     float reach = radius * map.cellsPerUnit * scale;
     vec3 extent = reach * (sqrt(max(1.0 - normal * normal, 0.0)) + 0.1 * abs(normal)) + boxRounding;
-    return Cells(ivec3(first), level, place - first - 1.0, (reach + rounding) * (reach + rounding), ivec3(floor(2.0 * (place - extent))),
-        ivec3(floor(2.0 * (place + extent))));
+    return Cells(ivec3(first), level, place - first - 1.0, (reach + rounding) * (reach + rounding),
+                 ivec3(floor(2.0 * (place - extent))), ivec3(floor(2.0 * (place + extent))));
 }
 
-// The photons of one of the eight cells, as places in the map; none if the disc does not reach it, and not those of the first
-// and last eighths that its bounding box leaves out, if the map's cells are split that far.
+// The photons of one of the eight cells, as places in the map; none if the disc does not reach it, and not those of the
+// first and last eighths that its bounding box leaves out, if the map's cells are split that far.
 uvec2 cellRange(PhotonMap map, Cells cells, uint corner) {
     ivec3 side = ivec3(corner >> 2, corner >> 1 & 1u, corner & 1u);
     vec3 away = max(cells.offset * vec3(1 - 2 * side), 0.0);

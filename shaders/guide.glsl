@@ -1,5 +1,5 @@
-// Guided emission: numbers that start photons, by a tree that says how many to draw from each part of their unit cube (primary sample
-// space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018).
+// Guided emission: numbers that start photons, by a tree that says how many to draw from each part of their unit cube
+// (primary sample space path guiding by trees, Guo, Bauszat, Bikker & Eisemann 2018).
 #ifndef GUIDE_GLSL
 #define GUIDE_GLSL
 #include "common.glsl"
@@ -16,8 +16,8 @@ float[PRIMARY_DIMENSIONS] primarySample(Sampler s) {
     return float[](light.x, light.y, place.x, place.y, direction.x, direction.y, sample2(s, 3u).x);
 }
 
-// Warps uniform numbers to those of the guide's density; returns the uniform density over that. Numbers that were well distributed
-// stay so, as each half of a box keeps their order (as McCool & Harwood 1997 do for grids).
+// Warps uniform numbers to those of the guide's density; returns the uniform density over that. Numbers that were well
+// distributed stay so, as each half of a box keeps their order (as McCool & Harwood 1997 do for grids).
 float guide(GuideNodePtr nodes, inout float numbers[PRIMARY_DIMENSIONS]) {
     float low[PRIMARY_DIMENSIONS] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     float width[PRIMARY_DIMENSIONS] = float[](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
@@ -34,7 +34,8 @@ float guide(GuideNodePtr nodes, inout float numbers[PRIMARY_DIMENSIONS]) {
         inverseDensity *= 0.5 / part;
         node = nodes.at[node.child + uint(upper)];
     }
-    [[unroll]] for (uint i = 0u; i < PRIMARY_DIMENSIONS; i++) numbers[i] = min(low[i] + width[i] * numbers[i], BELOW_ONE);
+    [[unroll]] for (uint i = 0u; i < PRIMARY_DIMENSIONS; i++) numbers[i] =
+        min(low[i] + width[i] * numbers[i], BELOW_ONE);
     return inverseDensity;
 }
 

@@ -22,9 +22,7 @@ INLINE uint hash(uint x) {
     return x;
 }
 
-INLINE uint hash(uvec3 v) {
-    return hash(v.x ^ hash(v.y ^ hash(v.z)));
-}
+INLINE uint hash(uvec3 v) { return hash(v.x ^ hash(v.y ^ hash(v.z))); }
 
 #ifdef __cplusplus
 } // namespace vkpm

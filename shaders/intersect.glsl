@@ -8,16 +8,14 @@
 struct Ray {
     vec3 origin;
     vec3 direction;
-    vec3 inverse; // of the direction, finite
-    vec3 shear;   // Woop's S: direction's two minor components over the major one, and 1 / major
-    uvec3 axes;   // minor, minor, and that of the largest component of the direction, in cyclic order
+    vec3 inverse;  // of the direction, finite
+    vec3 shear;    // Woop's S: direction's two minor components over the major one, and 1 / major
+    uvec3 axes;    // minor, minor, and that of the largest component of the direction, in cyclic order
     vec3 permuted; // origin in the order of the axes
 };
 
 // Puts the major axis last; a cyclic exchange, so that orientation stays.
-vec3 permute(vec3 v, uint major) {
-    return major == 2u ? v : major == 0u ? v.yzx : v.zxy;
-}
+vec3 permute(vec3 v, uint major) { return major == 2u ? v : major == 0u ? v.yzx : v.zxy; }
 
 Ray makeRay(vec3 origin, vec3 direction) {
     const float tiny = 7.888609e-31; // 2^-100: keeps 0 times infinity out of the boxes
@@ -29,9 +27,10 @@ Ray makeRay(vec3 origin, vec3 direction) {
     return Ray(origin, direction, 1.0 / safe, vec3(p.xy, 1.0) / p.z, axes, permute(origin, axis));
 }
 
-// Where a ray enters a box, or GREATEST if it misses it within (0, tMax]; conservative (Ize 2013). Numbers that are not negative
-// are in the order of their bits, and integers want no care for NaN: for this a driver may need three instructions a comparison.
-// Where a number is negative the box ends behind the ray, and so it stays whichever of them is taken.
+// Where a ray enters a box, or GREATEST if it misses it within (0, tMax]; conservative (Ize 2013). Numbers that are not
+// negative are in the order of their bits, and integers want no care for NaN: for this a driver may need three
+// instructions a comparison. Where a number is negative the box ends behind the ray, and so it stays whichever of them
+// is taken.
 float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
     bvec3 backwards = lessThan(ray.inverse, vec3(0.0));
     ivec3 near = floatBitsToInt((mix(low, high, backwards) - ray.origin) * ray.inverse);
@@ -42,8 +41,8 @@ float intersectBox(Ray ray, vec3 low, vec3 high, float tMax) {
 }
 
 // Watertight (Woop, Benthin & Wald 2013): neighbours compute a shared edge from the same products,
-// so `precise` matters, and points on an edge belong to both. Returns t, or -1; weights of b and c. The vertices' components
-// are in the order of the ray's axes.
+// so `precise` matters, and points on an edge belong to both. Returns t, or -1; weights of b and c. The vertices'
+// components are in the order of the ray's axes.
 float intersectPermuted(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
     precise vec3 pa = a - ray.permuted;
     precise vec3 pb = b - ray.permuted;
@@ -69,9 +68,10 @@ float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
     return intersectPermuted(ray, permute(a, major), permute(b, major), permute(c, major), weights);
 }
 
-// The nearer root that is > 0, or -1; `pole` is the sphere's point next to the origin of coordinates. For origins within two
-// radii of the centre the power of the origin leaves no cancellation that matters; for those farther away, to which the sphere
-// is small, the discriminant comes from the distance of the line to the centre. The roots are without cancellation (Haines et al. 2019).
+// The nearer root that is > 0, or -1; `pole` is the sphere's point next to the origin of coordinates. For origins
+// within two radii of the centre the power of the origin leaves no cancellation that matters; for those farther away,
+// to which the sphere is small, the discriminant comes from the distance of the line to the centre. The roots are
+// without cancellation (Haines et al. 2019).
 float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);

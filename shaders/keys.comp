@@ -10,6 +10,7 @@ ARGS(KeysArgs)
 void main() {
     uint i = threadIndex();
     if (i >= args.count) return;
-    args.keys.at[i] = cellKey(cellOf(args.photons.at[i].position, args.cellsPerUnit, args.levels), args.levels) & args.cellMask;
+    args.keys.at[i] =
+        cellKey(cellOf(args.photons.at[i].position, args.cellsPerUnit, args.levels), args.levels) & args.cellMask;
     args.values.at[i] = i;
 }

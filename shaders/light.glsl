@@ -38,9 +38,7 @@ bool isTriangle(Light light) {
     return hasTriangleLights && ((!hasRectangleLights && !hasSphereLights) || light.kind == LIGHT_TRIANGLE);
 }
 
-bool isTwoSided(Light light) {
-    return hasTwoSidedLights && light.twoSided != 0u;
-}
+bool isTwoSided(Light light) { return hasTwoSidedLights && light.twoSided != 0u; }
 
 // The point a + place.x u + place.y v of a rectangle or triangle.
 LightPoint flatLightAt(Light light, vec2 place) {

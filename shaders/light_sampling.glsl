@@ -1,5 +1,6 @@
-// Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays; needs sampling.glsl,
-// directions.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts: 1 / distance^2 has no bound.
+// Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays; needs
+// sampling.glsl, directions.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts:
+// 1 / distance^2 has no bound.
 #ifndef LIGHT_SAMPLING_GLSL
 #define LIGHT_SAMPLING_GLSL
 #include "common.glsl"
@@ -8,7 +9,8 @@
 #include "sampling.glsl"
 #include "shared_scene.h"
 
-// A point of a light, and the solid angle that it stands for where it is seen from: one over the density over solid angle.
+// A point of a light, and the solid angle that it stands for where it is seen from: one over the density over solid
+// angle.
 struct LightSample {
     LightPoint point;
     float inversePdf;
@@ -21,8 +23,8 @@ LightSample sampleLightArea(Light light, vec3 origin, vec2 u) {
     return LightSample(point, light.area * abs(dot(toLight, point.normal)) * inversesqrt(distance2) / distance2);
 }
 
-// Spheres seen from outside: uniform over the cone that they fill (Shirley, Wang & Zimmerman 1996). The point is the nearer one
-// on the ray of that direction, put back onto the sphere.
+// Spheres seen from outside: uniform over the cone that they fill (Shirley, Wang & Zimmerman 1996). The point is the
+// nearer one on the ray of that direction, put back onto the sphere.
 LightSample sampleSphereLight(Light light, vec3 origin, vec2 u) {
     vec3 toCenter = light.a - origin;
     float distance2 = dot(toCenter, toCenter);
@@ -35,7 +37,8 @@ LightSample sampleSphereLight(Light light, vec3 origin, vec2 u) {
     return LightSample(LightPoint(light.a + radius * n, abs(light.a) + radius, n), 2.0 * PI * height);
 }
 
-// A corner of a light as seen from a place: where it is, its direction, and one over its distance; zero at the place itself.
+// A corner of a light as seen from a place: where it is, its direction, and one over its distance; zero at the place
+// itself.
 struct Corner {
     vec3 position;
     vec3 w;
@@ -48,8 +51,8 @@ Corner cornerAt(vec3 position) {
     return Corner(position, inverseDistance * position, inverseDistance);
 }
 
-// The sum of the directions of two corners. Where they are nearly opposite it is made of a part across the side that joins them
-// and one along it, of which neither is a difference of large numbers.
+// The sum of the directions of two corners. Where they are nearly opposite it is made of a part across the side that
+// joins them and one along it, of which neither is a difference of large numbers.
 vec3 sumOf(Corner a, Corner b) {
     if (dot(a.w, b.w) > -0.5) return a.w + b.w;
     vec3 side = normalize(b.position - a.position);
@@ -58,7 +61,8 @@ vec3 sumOf(Corner a, Corner b) {
     return q + s + side * (dot(q - s, q + s) / dot(b.w - a.w, side));
 }
 
-// A triangle of a light as seen from a place; the side from the apex to b is that of its two sides seen under the larger angle.
+// A triangle of a light as seen from a place; the side from the apex to b is that of its two sides seen under the
+// larger angle.
 struct SphericalTriangle {
     Corner apex;
     Corner b;
@@ -70,8 +74,9 @@ struct SphericalTriangle {
     float angle;   // half its solid angle
 };
 
-// Half the solid angle by Van Oosterom & Strackee (1983, eq. 8); `normal` is the cross product of the triangle's sides in space, so
-// that small triangles keep their digits. The cosine is written about the two corners that are the most opposite.
+// Half the solid angle by Van Oosterom & Strackee (1983, eq. 8); `normal` is the cross product of the triangle's sides
+// in space, so that small triangles keep their digits. The cosine is written about the two corners that are the most
+// opposite.
 SphericalTriangle sphericalTriangle(Corner apex, Corner b, Corner d, vec3 diagonal, vec3 normal) {
     SphericalTriangle t;
     t.swapped = dot(apex.w, d.w) < dot(apex.w, b.w);
@@ -82,15 +87,17 @@ SphericalTriangle sphericalTriangle(Corner apex, Corner b, Corner d, vec3 diagon
     t.diagonal = diagonal;
     bool across = dot(b.w, d.w) < dot(apex.w, t.b.w);
     vec3 sum = across ? diagonal : t.bisector;
-    t.halfway = vec2(0.5 * dot(sum, sum) + dot(sum, across ? apex.w : t.d.w), abs(dot(apex.w, normal)) * b.inverseDistance * d.inverseDistance);
+    t.halfway = vec2(0.5 * dot(sum, sum) + dot(sum, across ? apex.w : t.d.w),
+                     abs(dot(apex.w, normal)) * b.inverseDistance * d.inverseDistance);
     t.angle = angleAbove(t.halfway);
     return t;
 }
 
-// Weights of the corners apex, b and d, not normalized, of a point of a light's triangle: uniform over solid angle (Arvo 1995),
-// without the inverse of a cosine. The arc from the apex through the point ends between b and d, and parts off a triangle of
-// `part`, half its solid angle: the formula for half the angle is linear in the bisector of b and the arc's end, which has the
-// weights x and x r. No weight is negative, so the point is on the light whatever rounding does.
+// Weights of the corners apex, b and d, not normalized, of a point of a light's triangle: uniform over solid angle
+// (Arvo 1995), without the inverse of a cosine. The arc from the apex through the point ends between b and d, and parts
+// off a triangle of `part`, half its solid angle: the formula for half the angle is linear in the bisector of b and the
+// arc's end, which has the weights x and x r. No weight is negative, so the point is on the light whatever rounding
+// does.
 vec3 sampleSphericalTriangle(SphericalTriangle t, float part, float v) {
     vec2 p = unitCircle(part / (2.0 * PI));
     float less = max(0.0, t.halfway.y * p.x - t.halfway.x * p.y);
@@ -104,7 +111,8 @@ vec3 sampleSphericalTriangle(SphericalTriangle t, float part, float v) {
     vec3 chord = end.x * t.b.w + end.y * t.d.w - t.apex.w;
     float height = min(0.5 * dot(chord, chord), 1.9999999);
     float toEnd = sqrt(v * (2.0 - v * height) / (2.0 - height));
-    vec3 weights = vec3(max(0.0, 1.0 - v * height - (1.0 - height) * toEnd), toEnd * end) * vec3(t.apex.inverseDistance, t.b.inverseDistance, t.d.inverseDistance);
+    vec3 weights = vec3(max(0.0, 1.0 - v * height - (1.0 - height) * toEnd), toEnd * end) *
+                   vec3(t.apex.inverseDistance, t.b.inverseDistance, t.d.inverseDistance);
     return t.swapped ? weights.xzy : weights;
 }
 
@@ -132,7 +140,8 @@ LightSample samplePolygonLight(Light light, vec3 origin, vec2 u) {
     vec3 weights = sampleSphericalTriangle(t, part, u.y);
     float sum = weights.x + weights.y + weights.z;
     if (!(sum > 0.0)) return LightSample(flatLightAt(light, vec2(0.5)), 0.0);
-    return LightSample(flatLightAt(light, min((weights.yz + (beyond ? weights.x : 0.0)) / sum, 1.0)), 2.0 * whole); // drivers divide to 2.5 ulps
+    return LightSample(flatLightAt(light, min((weights.yz + (beyond ? weights.x : 0.0)) / sum, 1.0)),
+                       2.0 * whole); // drivers divide to 2.5 ulps
 }
 
 // Lights whose middle is within so many of their diagonals are near.
@@ -145,7 +154,8 @@ LightSample sampleLight(Light light, vec3 origin, vec2 u) {
         if (dot(toA, toA) > light.u.x * light.u.x) return sampleSphereLight(light, origin, u);
     } else {
         vec3 toMiddle = toA + 0.5 * (light.u + light.v);
-        if (dot(toMiddle, toMiddle) < NEAR * NEAR * (dot(light.u, light.u) + dot(light.v, light.v))) return samplePolygonLight(light, origin, u);
+        if (dot(toMiddle, toMiddle) < NEAR * NEAR * (dot(light.u, light.u) + dot(light.v, light.v)))
+            return samplePolygonLight(light, origin, u);
     }
     return sampleLightArea(light, origin, u);
 }

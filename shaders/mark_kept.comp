@@ -1,8 +1,8 @@
 // Which photons stay in a map whose overfull cells are thinned.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common.glsl"
 #include "cell_thinning.glsl"
+#include "common.glsl"
 #include "shared_photons.h"
 
 ARGS(MarkKeptArgs)

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
-#include "visible_cells.glsl"
 #include "radius_field.glsl"
 #include "shared_camera.h"
 #include "shared_guide.h"
 #include "shared_paths.h"
+#include "visible_cells.glsl"
 
 ARGS(MarkVisibleArgs)
 

@@ -7,8 +7,8 @@
 #include "surface.glsl"
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; eta = index beyond / index on the side of incidence,
-// cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). Where the indices hardly differ, the differences of
-// cosines in the amplitudes would cancel: by Snell's law they are eta^2 - 1 over the sums.
+// cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). Where the indices hardly differ, the
+// differences of cosines in the amplitudes would cancel: by Snell's law they are eta^2 - 1 over the sums.
 float fresnelExact(float eta, float cosI, float cosT) {
     float e2 = eta * eta;
     float difference = (eta - 1.0) * (eta + 1.0);
@@ -28,9 +28,7 @@ float fresnelSchlick(float eta, float cosI, float cosT) {
 }
 
 // Squared cosine of the refracted direction (Snell); not above 0: total reflection.
-float refractedCosine2(float eta, float cosI) {
-    return ((eta - 1.0) * (eta + 1.0) + cosI * cosI) / (eta * eta);
-}
+float refractedCosine2(float eta, float cosI) { return ((eta - 1.0) * (eta + 1.0) + cosI * cosI) / (eta * eta); }
 
 // Fraction of light that a dielectric reflects.
 float fresnel(bool schlick, float eta, float cosI) {
@@ -43,14 +41,12 @@ float fresnel(bool schlick, float eta, float cosI) {
 // Where light goes on at a specular surface.
 struct Scattering {
     vec3 direction;
-    vec3 weight;           // reflectance or tint; the choice by Fresnel is in the probability
-    vec3 normal;           // that it turned about, on the side of incidence
-    float radianceScale;   // (index of the side of incidence / index of the side beyond)^2, for radiance alone
+    vec3 weight;         // reflectance or tint; the choice by Fresnel is in the probability
+    vec3 normal;         // that it turned about, on the side of incidence
+    float radianceScale; // (index of the side of incidence / index of the side beyond)^2, for radiance alone
 };
 
-Scattering reflectAbout(vec3 d, vec3 n, vec3 weight) {
-    return Scattering(reflect(d, n), weight, n, 1.0);
-}
+Scattering reflectAbout(vec3 d, vec3 n, vec3 weight) { return Scattering(reflect(d, n), weight, n, 1.0); }
 
 // Reflection with the probability `fresnel`, else refraction.
 Scattering scatterGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
@@ -91,23 +87,15 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
 }
 
 // Specular vertices of a path since its last diffuse one, up to 63, and its flags after one more.
-uint specularRun(uint flags) {
-    return (flags & PATH_SPECULARS) / PATH_SPECULAR;
-}
+uint specularRun(uint flags) { return (flags & PATH_SPECULARS) / PATH_SPECULAR; }
 
-uint afterSpecular(uint flags) {
-    return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR;
-}
+uint afterSpecular(uint flags) { return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR; }
 
-// Probability with which a path goes on at a specular surface after a run of others. Light within glass near the critical angle
-// may be reflected for ever without loss: from the 32nd on a tenth ends at each. Only a run counts: in a bright room, where
-// paths have hundreds of vertices, the weights that make up for such ends would grow without bound.
-float specularSurvival(vec3 weight, uint run) {
-    return min(maxComponent(weight), run < 32u ? 1.0 : 0.9);
-}
+// Probability with which a path goes on at a specular surface after a run of others. Light within glass near the
+// critical angle may be reflected for ever without loss: from the 32nd on a tenth ends at each. Only a run counts: in a
+// bright room, where paths have hundreds of vertices, the weights that make up for such ends would grow without bound.
+float specularSurvival(vec3 weight, uint run) { return min(maxComponent(weight), run < 32u ? 1.0 : 0.9); }
 
-bool isDiffuse(Material m) {
-    return hasDiffuse && ((!hasMirror && !hasGlass) || m.kind == MATERIAL_DIFFUSE);
-}
+bool isDiffuse(Material m) { return hasDiffuse && ((!hasMirror && !hasGlass) || m.kind == MATERIAL_DIFFUSE); }
 
 #endif

@@ -1,5 +1,5 @@
-// Measures, at each photon of a pilot map, the radius of a disc that holds `perDisc` photons, and adds its logarithm to the
-// cell of the radius field.
+// Measures, at each photon of a pilot map, the radius of a disc that holds `perDisc` photons, and adds its logarithm to
+// the cell of the radius field.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -9,8 +9,8 @@
 
 ARGS(MeasureRadiusArgs)
 
-// Photons expected in a disc of the radius that the cells of a level are made for, from those in the eight cells that cover
-// it; on a flat surface these have an area of 4 x 2.1^2 radii squared.
+// Photons expected in a disc of the radius that the cells of a level are made for, from those in the eight cells that
+// cover it; on a flat surface these have an area of 4 x 2.1^2 radii squared.
 float photonsInDisc(vec3 position, uint level) {
     Cells cells = cellsAround(args.map, position, vec3(0.0), ldexp(args.map.radius, -int(level)));
     cells.reach2 = GREATEST; // all eight count, whole

@@ -13,8 +13,6 @@ float roundingAlong(vec3 magnitude, vec3 n) {
 // in ulps like Waechter & Binder (2019), but without their absolute part, so that a scene scaled by a
 // power of two keeps its bits. Rays leave out the triangle they start on; the offset keeps them from slipping through
 // its neighbours, and from hitting their own sphere again.
-vec3 offsetPoint(vec3 position, vec3 magnitude, vec3 n) {
-    return position + n * roundingAlong(magnitude, n);
-}
+vec3 offsetPoint(vec3 position, vec3 magnitude, vec3 n) { return position + n * roundingAlong(magnitude, n); }
 
 #endif

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
-#include "visible_cells.glsl"
 #include "shared_guide.h"
+#include "visible_cells.glsl"
 
 ARGS(PhotonContributionArgs)
 

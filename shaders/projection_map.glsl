@@ -2,8 +2,8 @@
 #ifndef PROJECTION_MAP_GLSL
 #define PROJECTION_MAP_GLSL
 #include "common.glsl"
-#include "feature_checks.glsl"
 #include "directions.glsl"
+#include "feature_checks.glsl"
 #include "light.glsl"
 #include "sampling.glsl"
 #include "shared_scene.h"
@@ -16,8 +16,8 @@ float targetSolidAngle(Target target, vec3 point) {
     return 2.0 * PI * coneHeight(target.radius, distance2);
 }
 
-// A photon's way from a light: its direction, and a point of it by which it is known, `anchor`: the point of the light or, where that
-// is so far away that its rounding would count, one next to what the photon is aimed at.
+// A photon's way from a light: its direction, and a point of it by which it is known, `anchor`: the point of the light
+// or, where that is so far away that its rounding would count, one next to what the photon is aimed at.
 struct Aim {
     vec3 anchor;
     vec3 direction;
@@ -37,23 +37,25 @@ float targetDensity(Target target, LightPoint point, Aim aim, bool sampled) {
     return sampled || (dot(d, aim.direction) > 0.0 && dot(across, across) <= target.radius * target.radius) ? 1.0 : 0.0;
 }
 
-// Lights that are farther than this many radii of a target, and than two of all but far lights, are remote from it: at 32 a place
-// on the target is rounded to 2e-6 of its size.
+// Lights that are farther than this many radii of a target, and than two of all but far lights, are remote from it: at
+// 32 a place on the target is rounded to 2e-6 of its size.
 const float REMOTE = 32.0;
 
 bool isRemote(DeviceScene scene, Target target, vec3 point, float distance2) {
     if (hasFarLights == 0u) return false;
     vec3 d = scene.near.center - point;
-    return distance2 > REMOTE * REMOTE * target.radius * target.radius && dot(d, d) > 4.0 * scene.near.radius * scene.near.radius;
+    return distance2 > REMOTE * REMOTE * target.radius * target.radius &&
+           dot(d, d) > 4.0 * scene.near.radius * scene.near.radius;
 }
 
-// A direction uniform over the cone that a target fills. Of a remote light the anchor is the point of the way that is next to the
-// target's centre.
+// A direction uniform over the cone that a target fills. Of a remote light the anchor is the point of the way that is
+// next to the target's centre.
 Aim aimInCone(DeviceScene scene, Target target, vec3 point, vec3 d, float distance2, vec2 u) {
     vec3 cone = uniformCone(u, coneHeight(target.radius, distance2));
     vec3 axis = d * inversesqrt(distance2);
     Aim aim = Aim(point, toWorld(cone, axis), 1.0, isRemote(scene, target, point, distance2));
-    if (aim.remote) aim.anchor = target.center + toWorld(sqrt(distance2) * vec3(cone.xy * cone.z, -dot(cone.xy, cone.xy)), axis);
+    if (aim.remote)
+        aim.anchor = target.center + toWorld(sqrt(distance2) * vec3(cone.xy * cone.z, -dot(cone.xy, cone.xy)), axis);
     return aim;
 }
 
@@ -68,12 +70,13 @@ vec3 entrance(Target sphere, Aim aim) {
 Aim aimAtTarget(DeviceScene scene, Target target, LightPoint point, vec2 u) {
     vec3 d = target.center - point.position;
     float distance2 = dot(d, d);
-    if (distance2 <= target.radius * target.radius) return Aim(point.position, toWorld(cosineHemisphere(u), point.normal), 1.0, false);
+    if (distance2 <= target.radius * target.radius)
+        return Aim(point.position, toWorld(cosineHemisphere(u), point.normal), 1.0, false);
     return aimInCone(scene, target, point.position, d, distance2, u);
 }
 
-// The way of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform over the cone
-// of all that light falls upon. The weight is 0 below the horizon.
+// The way of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform
+// over the cone of all that light falls upon. The weight is 0 below the horizon.
 Aim aimAtLit(DeviceScene scene, LightPoint point, vec2 u) {
     vec3 d = scene.lit.center - point.position;
     float distance2 = dot(d, d);
@@ -85,19 +88,22 @@ Aim aimAtLit(DeviceScene scene, LightPoint point, vec2 u) {
     return aim;
 }
 
-// Chooses a target in proportion to its solid angle and a direction within it. The density is that of the mixture, so a direction
-// covered by several targets counts once; the weight is 0 if it is below the horizon.
+// Chooses a target in proportion to its solid angle and a direction within it. The density is that of the mixture, so a
+// direction covered by several targets counts once; the weight is 0 if it is below the horizon.
 Aim aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice) {
     if (scene.targetCount == 0u) return Aim(point.position, point.normal, 0.0, false);
     float total = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++) total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
+    for (uint i = 0u; i < scene.targetCount; i++)
+        total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
     uint chosen = 0u;
     float left = choice * total - targetSolidAngle(TargetPtr(scene.targets).at[0], point.position);
-    while (left >= 0.0 && chosen + 1u < scene.targetCount) left -= targetSolidAngle(TargetPtr(scene.targets).at[++chosen], point.position);
+    while (left >= 0.0 && chosen + 1u < scene.targetCount)
+        left -= targetSolidAngle(TargetPtr(scene.targets).at[++chosen], point.position);
 
     Aim aim = aimAtTarget(scene, TargetPtr(scene.targets).at[chosen], point, u);
     float density = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++) density += targetDensity(TargetPtr(scene.targets).at[i], point, aim, i == chosen);
+    for (uint i = 0u; i < scene.targetCount; i++)
+        density += targetDensity(TargetPtr(scene.targets).at[i], point, aim, i == chosen);
     float cosine = dot(aim.direction, point.normal);
     aim.weight = cosine > 0.0 ? cosine / PI * total / density : 0.0;
     return aim;

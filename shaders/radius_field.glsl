@@ -11,8 +11,8 @@ uint fieldSlot(PhotonMap map, ivec3 cell) {
     return hash(uvec3(cell)) & ((map.partial != 0u ? NARROW_FIELD_CELLS : FIELD_CELLS) - 1u);
 }
 
-// Interpolated between the middles of the eight cells around a point, of those that have a value. Elsewhere the map's radius; in a
-// map of narrow discs alone 0, unless half of the point's surroundings have values.
+// Interpolated between the middles of the eight cells around a point, of those that have a value. Elsewhere the map's
+// radius; in a map of narrow discs alone 0, unless half of the point's surroundings have values.
 float radiusAt(PhotonMap map, vec3 position) {
     if (!hasRadiusField || map.fieldPerUnit == 0.0) return map.radius;
     vec3 place = clamp(position * map.fieldPerUnit, -1.0e9, 1.0e9) - 0.5;

@@ -9,10 +9,7 @@ struct Sampler {
     uint seed;  // of the sequence
 };
 
-
-uint hash(uint a, uint b) {
-    return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));
-}
+uint hash(uint a, uint b) { return hash(a ^ (hash(b) + 0x9e3779b9u + (a << 6) + (a >> 2))); }
 
 // Owen scrambling of the bit-reversed x: each bit is flipped by a hash of the bits below it
 // (Laine & Karras 2011, with the constants of Vegdahl 2021).
@@ -26,9 +23,7 @@ uint scrambleReversed(uint x, uint seed) {
 }
 
 // Owen scrambling: each bit is flipped by a hash of the bits above it.
-uint owenScramble(uint x, uint seed) {
-    return bitfieldReverse(scrambleReversed(bitfieldReverse(x), seed));
-}
+uint owenScramble(uint x, uint seed) { return bitfieldReverse(scrambleReversed(bitfieldReverse(x), seed)); }
 
 // Second dimension of the Sobol sequence: Pascal's matrix modulo 2 times the bit-reversed index.
 // By Lucas' theorem the matrix is a Kronecker power, so five exchanges of half the bits multiply by it.
@@ -42,9 +37,7 @@ uint sobolSecond(uint index) {
 }
 
 // The 24 high bits as a float in [0, 1).
-float unitFloat(uint x) {
-    return float(x >> 8) * (1.0 / 16777216.0);
-}
+float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 
 // A point in [0, 1)^2; each dimension pair has its own shuffle and scrambling.
 vec2 sample2(Sampler s, uint dimension) {

@@ -3,8 +3,8 @@
 #define SAMPLING_GLSL
 #include "common.glsl"
 
-// The point of the unit circle at x eighths of a turn, |x| <= 1 (polynomials of Cephes, Moshier 1992). Drivers' sin and cos may
-// be wrong by 2^-11, which puts directions off by more than a gather radius and points of the disc outside it.
+// The point of the unit circle at x eighths of a turn, |x| <= 1 (polynomials of Cephes, Moshier 1992). Drivers' sin and
+// cos may be wrong by 2^-11, which puts directions off by more than a gather radius and points of the disc outside it.
 vec2 unitCircleNear(float x) {
     float angle = PI / 4.0 * x;
     float z = angle * angle;
@@ -22,8 +22,8 @@ vec2 unitCircle(float u) {
     return (turned & 2u) != 0u ? -p : p;
 }
 
-// The angle of a point from the x axis, in [0, pi]; p.y >= 0 (polynomial of Cephes, Moshier 1992). Drivers' atan may be off by
-// 4096 ulps.
+// The angle of a point from the x axis, in [0, pi]; p.y >= 0 (polynomial of Cephes, Moshier 1992). Drivers' atan may be
+// off by 4096 ulps.
 float angleAbove(vec2 p) {
     float x = abs(p.x);
     float high = max(x, p.y);
@@ -31,7 +31,8 @@ float angleAbove(vec2 p) {
     bool wide = t > 0.41421356;
     if (wide) t = (t - 1.0) / (t + 1.0);
     float z = t * t;
-    float angle = t + t * z * (-3.33329491539e-1 + z * (1.99777106478e-1 + z * (-1.38776856032e-1 + z * 8.05374449538e-2)));
+    float angle =
+        t + t * z * (-3.33329491539e-1 + z * (1.99777106478e-1 + z * (-1.38776856032e-1 + z * 8.05374449538e-2)));
     if (wide) angle += PI / 4.0;
     if (p.y > x) angle = PI / 2.0 - angle;
     return p.x < 0.0 ? PI - angle : angle;

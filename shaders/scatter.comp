@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "common.glsl"
-#include "feature_checks.glsl"
 #include "directions.glsl"
+#include "feature_checks.glsl"
 #include "material.glsl"
 #include "offset.glsl"
 #include "random.glsl"
@@ -34,17 +34,21 @@ uint scatterAtSpecular(inout Path path, Material material, Surface surface, Samp
     uint run = specularRun(path.flags);
     Scattering event = scatterSpecular(material, surface, path.direction, u.x);
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive, afterSpecular(path.flags));
-    return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive,
+                afterSpecular(path.flags));
+    return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON
+                                                                                         : OUTCOME_ABSORBED;
 }
 
-// The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for a shading normal
-// that is not the geometric one (Veach 1997, eq. 5.19).
+// The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for
+// a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
 Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
     if (hasSmoothNormals) {
         vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
         if (bulge == 0.0) path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
-        else path.throughput *= cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
+        else
+            path.throughput *=
+                cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
     }
     return Photon(surface.position, path.throughput, packUnit(normal));
 }
@@ -52,12 +56,13 @@ Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
 uint scatterAtDiffuse(inout Path path, Material material, Surface surface, vec3 normal, float survival, Sampler s) {
     if (!russianRoulette(path, material.color, survival, sample2(s, 4u * args.bounce + 5u).y)) return OUTCOME_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * args.bounce + 6u)), normal);
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0, surface.primitive, path.flags & ~PATH_SPECULARS);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0,
+                surface.primitive, path.flags & ~PATH_SPECULARS);
     return OUTCOME_GOES_ON;
 }
 
-// A photon that comes to lie on a smooth mesh is one that lies where it leaves the mesh too, if its path would go on: there light
-// arrives that the triangles before keep away. Those that the first place absorbs stand for all.
+// A photon that comes to lie on a smooth mesh is one that lies where it leaves the mesh too, if its path would go on:
+// there light arrives that the triangles before keep away. Those that the first place absorbs stand for all.
 const float MOST_SURVIVAL = 0.8; // some always go through
 
 // At a diffuse surface; a photon may arrive there, as `photon`, and the path goes on with the outcome returned.
@@ -78,9 +83,11 @@ uint arriveAtDiffuse(inout Path path, Material material, Surface surface, Sample
     bool passes = hasSmoothDiffuse && bulge != 0.0 && !through;
     if (passes) survival = min(survival, MOST_SURVIVAL);
     if (args.caustic != 0u) survival = 0.0;
-    uint outcome = args.caustic != 0u ? OUTCOME_ABSORBED : scatterAtDiffuse(path, material, surface, normal, survival, s);
+    uint outcome =
+        args.caustic != 0u ? OUTCOME_ABSORBED : scatterAtDiffuse(path, material, surface, normal, survival, s);
     if (!passes || outcome == OUTCOME_GOES_ON) return outcome;
-    path = Path(leave(surface, passing.direction), passing.direction, passing.throughput / (1.0 - survival), 0.0, surface.primitive, path.flags | PATH_THROUGH);
+    path = Path(leave(surface, passing.direction), passing.direction, passing.throughput / (1.0 - survival), 0.0,
+                surface.primitive, path.flags | PATH_THROUGH);
     return OUTCOME_GOES_ON;
 }
 
@@ -114,8 +121,8 @@ uint scatterPhoton(uint slot, out bool arrives, out PhotonDeposit deposit) {
     return outcome;
 }
 
-// Keeps a deposit, in any order; (slot, index) says where it belongs. One atomic each: to share one takes several operations on a
-// subgroup whose lanes nothing keeps together in between.
+// Keeps a deposit, in any order; (slot, index) says where it belongs. One atomic each: to share one takes several
+// operations on a subgroup whose lanes nothing keeps together in between.
 void keep(PhotonDeposit deposit) {
     uint place = atomicAdd(args.status.at[0].deposits, 1u);
     args.counts.at[deposit.slot] = deposit.index + 1u;

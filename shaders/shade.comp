@@ -1,14 +1,15 @@
 // Eye paths at the surfaces they hit: light that is seen, and what to ask of shadow rays and photon maps.
 //
-// The photon integrator asks at the first diffuse vertex for the caustic map, splits the path there (see split.comp), and asks
-// for the global map where gather rays end. The path integrator goes on and on, and counts the same paths in the same layers.
+// The photon integrator asks at the first diffuse vertex for the caustic map, splits the path there (see split.comp),
+// and asks for the global map where gather rays end. The path integrator goes on and on, and counts the same paths in
+// the same layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
-#include "film_layout.glsl"
 #include "direct.glsl"
-#include "feature_checks.glsl"
 #include "directions.glsl"
+#include "feature_checks.glsl"
+#include "film_layout.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "offset.glsl"
@@ -24,23 +25,15 @@
 
 ARGS(ShadeArgs)
 
-uint activeIntegrator() {
-    return integrator == ANY ? args.integrator : integrator;
-}
+uint activeIntegrator() { return integrator == ANY ? args.integrator : integrator; }
 
-bool showsCaustics() {
-    return hasCausticMap && args.caustics != 0u;
-}
+bool showsCaustics() { return hasCausticMap && args.caustics != 0u; }
 
 // A pixel's seed for the dimensions of this bounce: four pairs each, after that of the place in the pixel.
-vec2 bounceSample(Sampler s, uint pair) {
-    return sample2(s, 4u * args.bounce + pair + 1u);
-}
+vec2 bounceSample(Sampler s, uint pair) { return sample2(s, 4u * args.bounce + pair + 1u); }
 
 // The layer of a path, by the name it has if no specular surface stands before the first diffuse one.
-uint layerOf(Path path, uint layer) {
-    return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer;
-}
+uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer; }
 
 // Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
 // have the direct part, and the photon integrator has the rest in its maps.
@@ -49,16 +42,18 @@ void addEmission(uint slot, Path path, Light light, vec3 normal) {
     if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
-    addToColumns(args.samples, args.stride, layerColumn(layer), slot, path.throughput * emittedRadiance(light, normal, -path.direction));
+    addToColumns(args.samples, args.stride, layerColumn(layer), slot,
+                 path.throughput * emittedRadiance(light, normal, -path.direction));
 }
 
 // Asks for one light sample.
-bool requestShadowRay(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight, Sampler s) {
+bool requestShadowRay(DeviceScene scene, uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge,
+                      vec3 weight, Sampler s) {
     uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return false;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
-    ShadowRay ray = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight, layerColumn(layer), bounceSample(s, 0u),
-        bounceSample(s, 1u));
+    ShadowRay ray = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight, layerColumn(layer),
+                                 bounceSample(s, 0u), bounceSample(s, 1u));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
@@ -76,15 +71,16 @@ uint queryPhotonMap(uint queue, uint slot, Path path, Surface surface, vec3 norm
 void storeSplit(uint slot, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
     if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
-    args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight, surface.primitive, flags,
-        bulge);
+    args.splits.at[slot] = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight,
+                                 surface.primitive, flags, bulge);
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
 bool continuesAfterDiffuse(Path path) {
     if (activeIntegrator() == INTEGRATOR_DIRECT) return false;
     if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer;
-    return hasIndirectLayer || (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
+    return hasIndirectLayer ||
+           (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
@@ -96,8 +92,8 @@ bool bounceDiffuse(inout Path path, Surface surface, vec3 normal, vec3 shading, 
     if (!departs(direction, normal, bulge)) return false;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
-    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput * albedo / survival, 0.0,
-        surface.primitive, flags);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
+                path.throughput * albedo / survival, 0.0, surface.primitive, flags);
     return true;
 }
 
@@ -109,7 +105,8 @@ bool scatterAtSpecular(inout Path path, Material material, Surface surface, floa
     if (u.y >= survival) return false;
     uint flags = afterSpecular(path.flags) | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
-    path = Path(leave(surface, event.direction), event.direction, throughput, distanceSinceDiffuse, surface.primitive, flags);
+    path = Path(leave(surface, event.direction), event.direction, throughput, distanceSinceDiffuse, surface.primitive,
+                flags);
     return maxComponent(throughput) > 0.0;
 }
 
@@ -124,25 +121,27 @@ uint shadeDiffuse(DeviceScene scene, uint slot, inout Path path, Surface surface
 
     if (activeIntegrator() == INTEGRATOR_PHOTON_MAP) {
         bool caustics = showsCaustics();
-        return queryPhotonMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal, path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        return queryPhotonMap(caustics ? QUEUE_CAUSTIC : QUEUE_GLOBAL, slot, path, surface, normal,
+                              path.throughput / PI, caustics ? LAYER_CAUSTIC : LAYER_INDIRECT);
     }
     if (activeIntegrator() == INTEGRATOR_PHOTON && !first && path.distanceSinceDiffuse >= args.nearDistance)
         return queryPhotonMap(QUEUE_GLOBAL, slot, path, surface, normal, weight / PI, LAYER_INDIRECT);
 
     bool splits = activeIntegrator() == INTEGRATOR_PHOTON && first;
     uint queues = 0u;
-    if (!splits && requestShadowRay(scene, slot, path, surface, normal, shading, bulge, weight, s)) queues |= 1u << QUEUE_SHADOW;
+    if (!splits && requestShadowRay(scene, slot, path, surface, normal, shading, bulge, weight, s))
+        queues |= 1u << QUEUE_SHADOW;
     if (activeIntegrator() == INTEGRATOR_PHOTON && showsCaustics())
-        queues |= queryPhotonMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI, first ? LAYER_CAUSTIC : LAYER_INDIRECT);
+        queues |= queryPhotonMap(QUEUE_CAUSTIC, slot, path, surface, normal, weight / PI,
+                                 first ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (splits) storeSplit(slot, path, surface, normal, shading, bulge, weight);
-    else if (continuesAfterDiffuse(path) && bounceDiffuse(path, surface, normal, shading, bulge, albedo, s)) queues |= 1u << QUEUE_CONTINUE;
+    else if (continuesAfterDiffuse(path) && bounceDiffuse(path, surface, normal, shading, bulge, albedo, s))
+        queues |= 1u << QUEUE_CONTINUE;
     return queues;
 }
 
 // Whether light that is found beyond a specular vertex has a layer to go to.
-bool continuesAfterSpecular(Path path) {
-    return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer;
-}
+bool continuesAfterSpecular(Path path) { return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer; }
 
 uint shade(uint slot) {
     DeviceScene scene = args.scene.at[0];
@@ -158,13 +157,15 @@ uint shade(uint slot) {
         if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
         if (hasDepth) {
-            args.samples.at[COLUMN_DEPTH * args.stride + slot] = scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
+            args.samples.at[COLUMN_DEPTH * args.stride + slot] =
+                scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
             args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
         }
     }
     if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
         if (surface.bulge == 0.0 || !isDiffuse(material)) return 0u;
-        args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput, distanceSinceDiffuse, surface.primitive, path.flags & ~PATH_THROUGH);
+        args.paths.at[slot] = Path(leave(surface, path.direction), path.direction, path.throughput,
+                                   distanceSinceDiffuse, surface.primitive, path.flags & ~PATH_THROUGH);
         return 1u << QUEUE_CONTINUE;
     }
     if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
@@ -174,7 +175,8 @@ uint shade(uint slot) {
     path.distanceSinceDiffuse = distanceSinceDiffuse;
     uint queues;
     if (isDiffuse(material)) queues = shadeDiffuse(scene, slot, path, surface, material.color, s);
-    else if (continuesAfterSpecular(path)) queues = uint(scatterAtSpecular(path, material, surface, distanceSinceDiffuse, s)) << QUEUE_CONTINUE;
+    else if (continuesAfterSpecular(path))
+        queues = uint(scatterAtSpecular(path, material, surface, distanceSinceDiffuse, s)) << QUEUE_CONTINUE;
     else queues = 0u;
     if ((queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = path;
     return queues;

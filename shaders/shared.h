@@ -1,7 +1,9 @@
-// What C++ and GLSL both read: types, and the list of features; shared_*.h have the buffers' structs and an Args struct per kernel.
+// What C++ and GLSL both read: types, and the list of features; shared_*.h have the buffers' structs and an Args struct
+// per kernel.
 //
 // Every struct has scalar layout: the same bytes in both languages, no padding, no second copy.
-// Lengths are in the units of the scene (DeviceScene.unit), directions are of unit length, radiance is in W/(m^2 sr), flux in W.
+// Lengths are in the units of the scene (DeviceScene.unit), directions are of unit length, radiance is in W/(m^2 sr),
+// flux in W.
 
 #ifndef SHARED_H
 #define SHARED_H
@@ -28,9 +30,11 @@ template <class T> struct Ptr { std::uint64_t address = 0; };
 #define SHARED_BEGIN
 #define SHARED_END
 #define PTR(T) T##Ptr
-// In a struct that kernels copy or hand on: there, and for casts, SwiftShader fails on pointers. Read as TPtr(address).at[i].
+// In a struct that kernels copy or hand on: there, and for casts, SwiftShader fails on pointers. Read as
+// TPtr(address).at[i].
 #define ADDRESS(T) uvec2
-#define BUFFER(T) layout(buffer_reference, scalar, buffer_reference_align = 4) buffer T##Ptr { T at[]; };
+#define BUFFER(T)                                                                                                      \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer T##Ptr { T at[]; };
 #endif
 
 BUFFER(uint)
@@ -84,8 +88,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(28, bool, hasNoise, true)                                                                                        \
     X(29, bool, hasDiffuse, true)                                                                                      \
     X(30, bool, hasBias, true)                                                                                         \
-    X(31, bool, checksFeatures, false) /* kernels report what they meet and are without, see feature_checks.glsl */          \
-    X(32, uint, hasFarLights, 2) /* 1: only one, that nothing hides */                                                 \
+    X(31, bool, checksFeatures, false) /* kernels report what they meet and are without, see feature_checks.glsl */    \
+    X(32, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
     X(33, bool, hasGuide, true)                                                                                        \
     X(34, bool, hasSmoothDiffuse, true)                                                                                \
     X(35, bool, hasContact, true)

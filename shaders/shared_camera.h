@@ -12,7 +12,7 @@ struct ShadowRay {
     uint from; // primitive that the ray leaves
     vec3 target;
     vec3 radiance;
-    uint column; // of the samples, to which the radiance is added
+    uint column;  // of the samples, to which the radiance is added
     uint through; // 1: through a smooth mesh, see terminator.glsl
 };
 BUFFER(ShadowRay)
@@ -22,12 +22,13 @@ struct Query {
     vec3 position;
     vec3 normal; // geometric, on the side of the viewer
     vec3 weight;
-    uint column; // of the samples; NONE: a map of narrow discs has answered
+    uint column;     // of the samples; NONE: a map of narrow discs has answered
     float footprint; // radius that a pixel covers there
 };
 BUFFER(Query)
 
-/// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays start.
+/// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays
+/// start.
 struct Split {
     vec3 origin;
     vec3 normal; // geometric, on the side of the viewer
@@ -72,7 +73,7 @@ struct ShadeArgs {
     uint index;    // of the sample in its sequence
     uint seed;
     uint bounce;
-    uint caustics; // ask the caustic map; photon-map integrator: it, and not the global one
+    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
     float nearDistance; // a gather ray shorter than this goes on
     float pixelAngle;   // width of a pixel over its distance
     uint integrator;    // INTEGRATOR_...

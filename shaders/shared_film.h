@@ -6,12 +6,12 @@
 
 SHARED_BEGIN
 
-// Samples and their sums are stored column by column: a float for each pixel, then those of the next column. What a render
-// does without has no column. One pass gives a pixel its radiance by layer and what it knows of the first surface seen:
-// albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface), and an estimate of the
-// bias of beauty. Sums over a run of
-// passes have the squared deviations of beauty between batches of passes as well, what rounding took from the sums of the layers,
-// see accumulate.glsl, and the square of the luminance of the bias.
+// Samples and their sums are stored column by column: a float for each pixel, then those of the next column. What a
+// render does without has no column. One pass gives a pixel its radiance by layer and what it knows of the first
+// surface seen: albedo, shading normal, depth (distance along the camera's axis), covered (1 if there was a surface),
+// and an estimate of the bias of beauty. Sums over a run of passes have the squared deviations of beauty between
+// batches of passes as well, what rounding took from the sums of the layers, see accumulate.glsl, and the square of the
+// luminance of the bias.
 #define COLUMNS(X)                                                                                                     \
     X(COLUMN_EMISSION, 0u)                                                                                             \
     X(COLUMN_DIRECT, COLUMN_EMISSION + 3u * uint(hasEmissionLayer))                                                    \
@@ -24,10 +24,10 @@ SHARED_BEGIN
     X(COLUMN_COVERED, COLUMN_DEPTH + uint(hasDepth))                                                                   \
     X(COLUMN_BIAS, COLUMN_COVERED + uint(hasDepth))                                                                    \
     X(SAMPLE_COLUMNS, COLUMN_BIAS + 3u * uint(hasBias))                                                                \
-    X(COLUMN_SMALL_BATCHES, SAMPLE_COLUMNS)                                                                                     \
-    X(COLUMN_LARGE_BATCHES, COLUMN_SMALL_BATCHES + 3u * uint(hasNoise))                                                                \
-    X(COLUMN_COMPENSATION, COLUMN_LARGE_BATCHES + 3u * uint(hasNoise))                                                                \
-    X(COLUMN_SQUARE, COLUMN_COMPENSATION + 3u * uint(hasNoise))                                                                \
+    X(COLUMN_SMALL_BATCHES, SAMPLE_COLUMNS)                                                                            \
+    X(COLUMN_LARGE_BATCHES, COLUMN_SMALL_BATCHES + 3u * uint(hasNoise))                                                \
+    X(COLUMN_COMPENSATION, COLUMN_LARGE_BATCHES + 3u * uint(hasNoise))                                                 \
+    X(COLUMN_SQUARE, COLUMN_COMPENSATION + 3u * uint(hasNoise))                                                        \
     X(SUM_COLUMNS, COLUMN_SQUARE + uint(hasBias))
 
 #ifdef __cplusplus
@@ -56,8 +56,8 @@ struct PassRange {
 
 /// How the deviations of two adjacent runs of passes make those of both, see accumulate.glsl.
 struct JoinWeights {
-    float perPass;      // 1 / passes of the first run, or 0 if it has none
-    uint times;         // passes of the first over those of the second: a whole number
+    float perPass; // 1 / passes of the first run, or 0 if it has none
+    uint times;    // passes of the first over those of the second: a whole number
     float fine;
     float coarse;
     uint grows; // 1: the first run is a batch like the second, and both become one of the next size

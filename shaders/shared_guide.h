@@ -6,7 +6,8 @@
 
 SHARED_BEGIN
 
-const uint VISIBLE_CELL_WORDS = 1u << 18; // of a set of cells, see visible_cells.glsl; one more has a bit for each level in use
+const uint VISIBLE_CELL_WORDS =
+    1u << 18; // of a set of cells, see visible_cells.glsl; one more has a bit for each level in use
 
 struct MarkVisibleArgs {
     PhotonMap map;
@@ -22,9 +23,9 @@ struct LightContributionArgs {
     PTR(DeviceScene) scene;
     PTR(Split) splits;
     PTR(float) values; // [split][light of it]: luminance that it brings
-    uint count; // of values
-    uint lightsEach; // lights that a split is asked about
-    uint stride; // one split of so many is asked
+    uint count;        // of values
+    uint lightsEach;   // lights that a split is asked about
+    uint stride;       // one split of so many is asked
     uint seed;
 };
 

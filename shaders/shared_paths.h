@@ -2,8 +2,8 @@
 #ifndef SHARED_PATHS_H
 #define SHARED_PATHS_H
 #include "shared.h"
-#include "shared_scene.h"
 #include "shared_layers.h"
+#include "shared_scene.h"
 
 SHARED_BEGIN
 
@@ -28,13 +28,13 @@ struct Path {
     vec3 direction;
     vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
     float distanceSinceDiffuse; // since the last diffuse vertex
-    uint from;       // primitive that the ray leaves, or NONE
-    uint flags;      // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
+    uint from;                  // primitive that the ray leaves, or NONE
+    uint flags;                 // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
 };
-const uint PATH_EYE_SPECULAR = 1u;                  // eye: the first vertex was specular
-const uint PATH_SPECULAR = 2u;                      // one specular vertex since the last diffuse one
-const uint PATH_SPECULARS = 63u * PATH_SPECULAR;    // all of these that are counted
-const uint PATH_THROUGH = 1u << 7;                  // goes through a smooth mesh, see terminator.glsl
+const uint PATH_EYE_SPECULAR = 1u;               // eye: the first vertex was specular
+const uint PATH_SPECULAR = 2u;                   // one specular vertex since the last diffuse one
+const uint PATH_SPECULARS = 63u * PATH_SPECULAR; // all of these that are counted
+const uint PATH_THROUGH = 1u << 7;               // goes through a smooth mesh, see terminator.glsl
 const uint PATH_DIFFUSE_SHIFT = 8u;
 BUFFER(Path)
 
@@ -48,9 +48,9 @@ BUFFER(Hit)
 
 /// What the host reads after a step: counters.
 struct Status {
-    uint deposits;  // photons for the map, whether there was room or not
-    uint absorbed;  // photons
-    uint escaped;   // photons that left the scene or missed what they were aimed at
+    uint deposits;                    // photons for the map, whether there was room or not
+    uint absorbed;                    // photons
+    uint escaped;                     // photons that left the scene or missed what they were aimed at
     uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
 };
 const uint NONFINITE_PHOTON = LAYER_COUNT;

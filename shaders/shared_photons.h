@@ -22,7 +22,8 @@ struct PhotonDeposit {
 };
 BUFFER(PhotonDeposit)
 
-// The numbers in [0, 1) that start a photon: light, side, two for the place on the light, two for the direction, target.
+// The numbers in [0, 1) that start a photon: light, side, two for the place on the light, two for the direction,
+// target.
 const uint PRIMARY_DIMENSIONS = 7u;
 const uint PRIMARY_LIGHT = 0u;
 const uint PRIMARY_SIDE = 1u;
@@ -41,11 +42,11 @@ BUFFER(GuideNode)
 /// How a photon was started, and how useful it was.
 struct PrimarySample {
     float numbers[PRIMARY_DIMENSIONS];
-    float weight;  // of its flux, had the numbers been uniform
-    float inverseDensity;  // uniform density over that of the numbers
-    uint stored;   // how often it was stored,
-    uint seen;     // and how often where the eye looks,
-    vec3 place;    // there first
+    float weight;         // of its flux, had the numbers been uniform
+    float inverseDensity; // uniform density over that of the numbers
+    uint stored;          // how often it was stored,
+    uint seen;            // and how often where the eye looks,
+    vec3 place;           // there first
 };
 BUFFER(PrimarySample)
 
@@ -56,8 +57,8 @@ struct EmitArgs {
     PTR(uint) flags;
     PTR(uint) counts; // of deposits, by path
     PTR(Status) status;
-    ADDRESS(GuideNode) guide; // 0: the numbers are uniform
-    ADDRESS(PrimarySample) starts;    // 0: nobody asks
+    ADDRESS(GuideNode) guide;      // 0: the numbers are uniform
+    ADDRESS(PrimarySample) starts; // 0: nobody asks
     uint firstPhoton;
     uint count;
     uint pass;
@@ -97,38 +98,42 @@ struct PhotonMap {
     ADDRESS(Photon) photons;
     ADDRESS(uint) cells;  // cellMask + 2 entries
     ADDRESS(float) field; // binary logarithms of radii in units of `radius`, or 1 where unknown
-    float cellsPerUnit; // of the widest cells
+    float cellsPerUnit;   // of the widest cells
     uint cellMask;
-    uint levels;  // how often a cell is split into eight
-    float radius; // the greatest
-    float shrink; // gather within this part of the distance of the k-th nearest, or of a pixel at least
-    float photonFlux; // W per photon emitted
+    uint levels;        // how often a cell is split into eight
+    float radius;       // the greatest
+    float shrink;       // gather within this part of the distance of the k-th nearest, or of a pixel at least
+    float photonFlux;   // W per photon emitted
     float fieldPerUnit; // 0 if the radius is the same everywhere
     uint partial;       // 1: of narrow discs alone; where the field is unknown, the next map answers
-    uint kernel;    // KERNEL_...
-    uint nearest;   // the radius is the distance of the k-th nearest; 0: not so
+    uint kernel;        // KERNEL_...
+    uint nearest;       // the radius is the distance of the k-th nearest; 0: not so
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");
 #endif
 const uint MAX_LEVELS = 4u;
-const uint FIELD_CELLS = 1u << 16, NARROW_FIELD_CELLS = 1u << 22; // of a map, of one of narrow discs alone: hardly two share one
-const float PILOT_UNIT = 1024.0; // a logarithm of 1 in the sums
+const uint FIELD_CELLS = 1u << 16,
+           NARROW_FIELD_CELLS = 1u << 22; // of a map, of one of narrow discs alone: hardly two share one
+const float PILOT_UNIT = 1024.0;          // a logarithm of 1 in the sums
 
 /// A photon of a pilot, and the radius that it wants.
 struct WantedRadius {
     vec3 position;
-    float logarithm; // negative binary one, in units of the map's radius; more than its levels: narrower than it has cells for
+    float logarithm; // negative binary one, in units of the map's radius; more than its levels: narrower than it has
+                     // cells for
 };
 BUFFER(WantedRadius)
 
 struct MeasureRadiusArgs {
     PhotonMap map;
-    PTR(uint) sums; // by cell of the field: negative logarithms, photons; then photons whose discs cannot be as narrow as they should
+    PTR(uint)
+    sums; // by cell of the field: negative logarithms, photons; then photons whose discs cannot be as narrow as they
+          // should
     PTR(WantedRadius) wanted; // in a partial map, in place of sums
     uint count;
-    uint stride; // one photon of so many is looked at
+    uint stride;   // one photon of so many is looked at
     float perDisc; // photons wanted
 };
 

@@ -22,8 +22,8 @@ const uint LEAF_FIRST = 0x07ffffffu;
 BUFFER(Node)
 
 /// A primitive as traversal reads it, in the order of the leaves:
-/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x, whose point next to the
-/// origin of coordinates is c.
+/// a triangle a, b, c, or, if id >= DeviceScene.triangleCount, the sphere of centre a and radius b.x, whose point next
+/// to the origin of coordinates is c.
 struct Leaf {
     vec3 a;
     vec3 b;
@@ -67,7 +67,7 @@ const uint MATERIAL_GLASS = 2u;   // smooth dielectric interface, its inside aga
 
 struct Material {
     uint kind;
-    vec3 color; // albedo, reflectance, or factor at each refraction, within [0, 1]
+    vec3 color;   // albedo, reflectance, or factor at each refraction, within [0, 1]
     float ior;    // glass: index inside / index outside
     uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
 };
@@ -90,8 +90,8 @@ struct Light {
 };
 BUFFER(Light)
 
-/// A sphere at which photons are aimed: those of caustics at that about a specular shape, those of far lights at that about all
-/// that light falls upon.
+/// A sphere at which photons are aimed: those of caustics at that about a specular shape, those of far lights at that
+/// about all that light falls upon.
 struct Target {
     vec3 center;
     float radius;
@@ -119,8 +119,8 @@ struct DeviceScene {
     ADDRESS(float) directCdf; // of light samples, likewise
     ADDRESS(Target) targets;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;  // about all that light falls upon
-    Target near; // about all but far lights
+    Target lit;            // about all that light falls upon
+    Target near;           // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;

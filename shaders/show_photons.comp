@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
-#include "film_layout.glsl"
 #include "density.glsl"
+#include "film_layout.glsl"
 #include "grid.glsl"
 #include "shared_camera.h"
 #include "shared_paths.h"

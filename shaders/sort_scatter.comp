@@ -1,5 +1,5 @@
-// Radix sort, last step: moves each key and value to its place; stable. A group takes 64 pairs at a time: who has a digit
-// is a mask of 64 bits, and the rank among equal digits is the number of bits below one's own.
+// Radix sort, last step: moves each key and value to its place; stable. A group takes 64 pairs at a time: who has a
+// digit is a mask of 64 bits, and the rank among equal digits is the number of bits below one's own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"

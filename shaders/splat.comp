@@ -1,12 +1,12 @@
-// Connects photons to the camera: the pixel that sees each one, and what it adds to the mean radiance of that pixel (light
-// tracing, Arvo 1986; the camera's weight as in Dutré, Lafortune & Willems 1993).
+// Connects photons to the camera: the pixel that sees each one, and what it adds to the mean radiance of that pixel
+// (light tracing, Arvo 1986; the camera's weight as in Dutré, Lafortune & Willems 1993).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "common.glsl"
 #include "camera.glsl"
-#include "feature_checks.glsl"
+#include "common.glsl"
 #include "directions.glsl"
+#include "feature_checks.glsl"
 #include "material.glsl"
 #include "offset.glsl"
 #include "shared_paths.h"
@@ -18,9 +18,7 @@
 
 ARGS(SplatArgs)
 
-uint noPixel() {
-    return args.size.x * args.size.y;
-}
+uint noPixel() { return args.size.x * args.size.y; }
 
 // The pixel that a direction goes through, if it does.
 uint pixelOf(Camera camera, vec3 direction) {
@@ -31,17 +29,17 @@ uint pixelOf(Camera camera, vec3 direction) {
     return pixel.y * args.size.x + pixel.x;
 }
 
-// Whether the photon is where a ray from the eye ends. The ray meets the surface's plane once, so a photon in this plane is
-// there; and it has to have arrived on the side that the ray comes from.
+// Whether the photon is where a ray from the eye ends. The ray meets the surface's plane once, so a photon in this
+// plane is there; and it has to have arrived on the side that the ray comes from.
 bool isAt(Photon photon, Surface surface, vec3 direction) {
     vec3 normal = dot(direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
     float apart = abs(dot(surface.position - photon.position, normal));
     return apart <= roundingAlong(surface.magnitude, normal) && dot(unpackUnit(photon.normal), normal) > 0.0;
 }
 
-// Whether the camera sees the photon; `radiance` is what the photon adds to its pixel's mean. Between film and surface go the
-// cosine of the geometric normal and the square of the distance; what shading normals change is in the photon's color (Veach
-// 1997, eq. 5.19).
+// Whether the camera sees the photon; `radiance` is what the photon adds to its pixel's mean. Between film and surface
+// go the cosine of the geometric normal and the square of the distance; what shading normals change is in the photon's
+// color (Veach 1997, eq. 5.19).
 bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
     radiance = vec3(0.0);
     vec3 direction = normalize(toPhoton);

@@ -1,11 +1,12 @@
-// Sends from each diffuse point that the eye sees a light sample and a gather ray, the latter by the cosine law about the shading
-// normal. There are several of both for a path from the eye (splitting, Arvo & Kirk 1990), whose own part is traced once for all.
+// Sends from each diffuse point that the eye sees a light sample and a gather ray, the latter by the cosine law about
+// the shading normal. There are several of both for a path from the eye (splitting, Arvo & Kirk 1990), whose own part
+// is traced once for all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
-#include "film_layout.glsl"
 #include "direct.glsl"
 #include "directions.glsl"
+#include "film_layout.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
 #include "shared_camera.h"
@@ -18,14 +19,15 @@ ARGS(SplitArgs)
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge, args.share * from.throughput,
-        layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
+    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
+                                 args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
 
 bool sendGatherRay(uint slot, Split from, Sampler s) {
-    if (!hasGlobalMap || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT)) return false;
+    if (!hasGlobalMap || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT))
+        return false;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;

@@ -15,7 +15,7 @@ struct Surface {
     uint material;
     uint light;
     uint primitive;
-    float bulge;    // on the side of the geometric normal: 0 if shading is flat; see terminator.glsl
+    float bulge; // on the side of the geometric normal: 0 if shading is flat; see terminator.glsl
 };
 
 Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
@@ -37,7 +37,8 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
             bulge = bulge < 0.0 == turned ? 1.0 : -1.0;
         }
     }
-    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive, bulge);
+    return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive,
+                   bulge);
 }
 
 // The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t.
@@ -46,7 +47,8 @@ Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
     float distance = length(f);
     vec3 normal = f / distance;
     vec3 position = along - spherePower(along, p.a, p.c) / (distance + p.b.x) * normal;
-    return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive, 0.0);
+    return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive,
+                   0.0);
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {

@@ -1,8 +1,8 @@
 // Copies the photons that stay when overfull cells are thinned, with the flux of those that do not, and their keys.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common.glsl"
 #include "cell_thinning.glsl"
+#include "common.glsl"
 #include "shared_photons.h"
 
 ARGS(ThinCellsArgs)

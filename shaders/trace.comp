@@ -14,6 +14,7 @@ void main() {
     vec3 origin = args.paths.at[slot].origin;
     vec3 direction = args.paths.at[slot].direction;
     uint from = args.paths.at[slot].from;
-    if (hasSmoothDiffuse && (args.paths.at[slot].flags & PATH_THROUGH) != 0u) origin = beneath(args.scene.at[0], origin, direction, from);
+    if (hasSmoothDiffuse && (args.paths.at[slot].flags & PATH_THROUGH) != 0u)
+        origin = beneath(args.scene.at[0], origin, direction, from);
     args.hits.at[slot] = closest(args.scene.at[0], origin, direction, from);
 }

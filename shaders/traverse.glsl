@@ -8,10 +8,11 @@
 #include "shared_paths.h"
 #include "shared_scene.h"
 
-// Where glass touches something opaque both faces are at the same place but for rounding, and a ray that went through the glass
-// first would start behind the other. So an opaque triangle hides the glass triangles before it that are within the roundings by which
-// rays are offset, and those of the ray, and a ray that leaves something opaque does not hit them: whatever the order of shapes, what
-// stands on the floor is in contact with it. Nearest hits are found for either kind.
+// Where glass touches something opaque both faces are at the same place but for rounding, and a ray that went through
+// the glass first would start behind the other. So an opaque triangle hides the glass triangles before it that are
+// within the roundings by which rays are offset, and those of the ray, and a ray that leaves something opaque does not
+// hit them: whatever the order of shapes, what stands on the floor is in contact with it. Nearest hits are found for
+// either kind.
 struct Contact {
     Hit glass;
     float slack; // how much farther along the ray an opaque triangle still hides `glass`
@@ -26,7 +27,8 @@ float slackOf(DeviceScene scene, Ray ray, uint id) {
     vec3 normal = directionOfCross(p.b - p.a, p.c - p.a);
     vec3 magnitude = abs(p.a) + abs(p.b) + abs(p.c) + abs(ray.origin);
     const float roundings = 4.7683716e-7; // 2^-21 of the greatest coordinate, where that along the normal is 0
-    return (2.0 * roundingAlong(magnitude, normal) + roundings * maxComponent(magnitude)) / max(abs(dot(ray.direction, normal)), 1e-30);
+    return (2.0 * roundingAlong(magnitude, normal) + roundings * maxComponent(magnitude)) /
+           max(abs(dot(ray.direction, normal)), 1e-30);
 }
 
 // Triangles of smooth diffuse meshes that a ray to a light may go through, and has gone through; see terminator.glsl.
@@ -42,14 +44,14 @@ bool isSmoothDiffuse(DeviceScene scene, uint id) {
 
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
-void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit, inout Contact contact,
-    inout Passage passage) {
+void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit,
+                   inout Contact contact, inout Passage passage) {
     uint id = LeafPtr(scene.leaves).at[slot].id;
     vec2 weights = vec2(0.0);
     float t;
     if (hasSpheres && (!hasTriangles || id >= scene.triangleCount)) {
         t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x,
-            LeafPtr(scene.leaves).at[slot].c);
+                            LeafPtr(scene.leaves).at[slot].c);
     } else {
         // Loads in the order of the ray's axes save the exchange.
         LeafNumbersPtr leaves = LeafNumbersPtr(scene.leaves);
@@ -73,12 +75,11 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
 }
 
 // How far a ray has to be looked along.
-float reach(Hit hit, Contact contact) {
-    return hasContact ? min(hit.t, contact.glass.t + contact.slack) : hit.t;
-}
+float reach(Hit hit, Contact contact) { return hasContact ? min(hit.t, contact.glass.t + contact.slack) : hit.t; }
 
-// Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait are in
-// registers, newest first; when a ninth comes the older four move to memory, together, as each move there costs what a node does.
+// Depth-first traversal, nearer child first; `any` stops at the first hit with t < tMax. The last eight nodes that wait
+// are in registers, newest first; when a ninth comes the older four move to memory, together, as each move there costs
+// what a node does.
 Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, inout Passage passage) {
     uint memory[stackSize];
     uint moved = 0u; // how many are in memory
@@ -133,7 +134,8 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
             held--;
         }
     }
-    if (!any && hasContact && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack)) return contact.glass;
+    if (!any && hasContact && contact.glass.primitive != NONE && !(hit.t <= contact.glass.t + contact.slack))
+        return contact.glass;
     return hit;
 }
 
@@ -162,7 +164,8 @@ vec3 beneath(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
 bool hidden(DeviceScene scene, ShadowRay ray) {
     Passage passage = Passage(hasSmoothDiffuse && ray.through != 0u, 0u);
     if (passage.allowed) ray.origin = beneath(scene, ray.origin, ray.target - ray.origin, ray.from);
-    bool hit = traverse(scene, makeRay(ray.origin, ray.target - ray.origin), ray.from, 1.0, true, passage).primitive != NONE;
+    bool hit =
+        traverse(scene, makeRay(ray.origin, ray.target - ray.origin), ray.from, 1.0, true, passage).primitive != NONE;
     return hit || (passage.allowed && passage.triangles != 1u);
 }
 

@@ -1,4 +1,5 @@
-// A set of cells of several widths, where the eye looks: bits by hash, so that few cells that were not marked seem to be. Cells of level l are 2^l times as wide as the finest.
+// A set of cells of several widths, where the eye looks: bits by hash, so that few cells that were not marked seem to
+// be. Cells of level l are 2^l times as wide as the finest.
 #ifndef VISIBLE_CELLS_GLSL
 #define VISIBLE_CELLS_GLSL
 #include "common.glsl"
@@ -6,13 +7,9 @@
 #include "random.glsl"
 #include "shared_guide.h"
 
-uint markHash(ivec3 cell, uint level) {
-    return hash(uvec3(cell) ^ uvec3(0u, 0u, hash(level)));
-}
+uint markHash(ivec3 cell, uint level) { return hash(uvec3(cell) ^ uvec3(0u, 0u, hash(level))); }
 
-ivec3 markedCell(vec3 position, float width) {
-    return ivec3(floor(clamp(position / width, -1.0e9, 1.0e9)));
-}
+ivec3 markedCell(vec3 position, float width) { return ivec3(floor(clamp(position / width, -1.0e9, 1.0e9))); }
 
 // Marks the eight cells of a level about a position: all within half a cell's width of it.
 void mark(uintPtr marks, vec3 position, float finest, uint level) {

@@ -76,7 +76,8 @@ void expectNothingLost(const Shapes& shapes, const Bvh& bvh, double tolerance) {
                 point =
                     dvec3{p.a} + double{p.b.x} * glm::normalize(dvec3{normal(random), normal(random), normal(random)});
             ASSERT_TRUE(glm::all(glm::lessThanEqual(dvec3{box.low} - tolerance, point)) &&
-                        glm::all(glm::lessThanEqual(point, dvec3{box.high} + tolerance))) << "primitive " << i;
+                        glm::all(glm::lessThanEqual(point, dvec3{box.high} + tolerance)))
+                << "primitive " << i;
         }
     }
 }

@@ -9,14 +9,16 @@ namespace {
 
 TEST(Camera, DirectionsThroughTheFilm) {
     const Camera camera{.origin = {5, 5, 5}, .forward = {0, 0, -1}, .right = {0.5f, 0, 0}, .up = {0, 0.25f, 0}};
-    const std::vector<CameraCase> xs{{camera, {0.5f, 0.5f}}, {camera, {1, 0.5f}}, {camera, {0.5f, 0}}, {camera, {0, 1}}};
+    const std::vector<CameraCase> xs{
+        {camera, {0.5f, 0.5f}}, {camera, {1, 0.5f}}, {camera, {0.5f, 0}}, {camera, {0, 1}}};
     const std::vector<vec3> expected{{0, 0, -1}, {0.5f, 0, -1}, {0, 0.25f, -1}, {-0.5f, -0.25f, -1}};
     const auto ys = map<vec3>("camera_direction", xs);
     for (std::size_t i = 0; i < xs.size(); i++) EXPECT_LT(glm::length(ys[i] - glm::normalize(expected[i])), 1e-6) << i;
 }
 
 TEST(Camera, FilmPositionsAreTheInverse) {
-    const Camera camera = pinholeCamera({.origin = {1, 2, 3}, .target = {2, 1, -1}, .up = {0.2f, 1, 0}, .fieldOfView = 2}, {30, 20});
+    const Camera camera =
+        pinholeCamera({.origin = {1, 2, 3}, .target = {2, 1, -1}, .up = {0.2f, 1, 0}, .fieldOfView = 2}, {30, 20});
     std::vector<CameraCase> xs;
     for (const vec2 film : unitSquare(10'000, 1)) xs.push_back({camera, film});
     const auto ys = map<vec2>("film_position", xs);
@@ -28,7 +30,8 @@ TEST(Camera, SolidAnglesOfPixelsAddUp) {
     const double x = 2, y = 1;
     const Camera camera{.forward = {0, 0, -1}, .right = {float(x), 0, 0}, .up = {0, float(y), 0}};
     std::vector<CameraCase> xs;
-    for (int i = 0; i < 40 * 20; i++) xs.push_back({camera, {(float(i % 40) + 0.5f) / 40, (float(i / 40) + 0.5f) / 20}});
+    for (int i = 0; i < 40 * 20; i++)
+        xs.push_back({camera, {(float(i % 40) + 0.5f) / 40, (float(i / 40) + 0.5f) / 20}});
     double sum = 0;
     for (const float angle : map<float>("pixel_solid_angle", xs)) sum += double(angle);
     EXPECT_NEAR(sum, 4 * std::asin(x * y / std::sqrt((1 + x * x) * (1 + y * y))), 2e-3);
@@ -47,7 +50,8 @@ TEST(Kernel, IsFinite) {
 }
 
 TEST(Kernel, MaxComponent) {
-    EXPECT_EQ(map<float>("max_component", std::vector<vec3>{{1, 2, 3}, {3, 1, 2}, {2, 3, 1}, {-3, -1, -2}}), (std::vector<float>{3, 3, 3, -1}));
+    EXPECT_EQ(map<float>("max_component", std::vector<vec3>{{1, 2, 3}, {3, 1, 2}, {2, 3, 1}, {-3, -1, -2}}),
+              (std::vector<float>{3, 3, 3, -1}));
 }
 
 // More elements than one row of 65,535 groups holds.

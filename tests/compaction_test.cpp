@@ -63,14 +63,16 @@ TEST_P(CompactionTest, ListsEqualAReference) {
     for (const uint kinds : {PHOTON_QUEUES, EYE_QUEUES}) {
         Compaction compaction(testGpu(), "test", 100'001, kinds);
         const uint count = GetParam(), all = (1u << kinds) - 1;
-        for (const auto& flags : {randomFlags(random, count, kinds), std::vector<uint>(count, 0), std::vector<uint>(count, all)}) {
+        for (const auto& flags :
+             {randomFlags(random, count, kinds), std::vector<uint>(count, 0), std::vector<uint>(count, all)}) {
             const auto list = begin(compaction, count);
             EXPECT_EQ(step(compaction, flags, kinds), reference(list, flags, kinds)) << count << " " << kinds;
         }
     }
 }
 
-// Several rounds until nothing is left, each of which shortens the first queue; twice, to see that starting again works.
+// Several rounds until nothing is left, each of which shortens the first queue; twice, to see that starting again
+// works.
 TEST_P(CompactionTest, BasesAddUpOverRounds) {
     Random random(GetParam());
     const uint kinds = EYE_QUEUES;

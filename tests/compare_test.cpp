@@ -1,6 +1,6 @@
 /// Error measures against values worked out by hand, the layers of an image, and vkpm compare on files.
-#include "output/exr.h"
 #include "measure/layer_error.h"
+#include "output/exr.h"
 #include "program.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -173,8 +173,10 @@ void writeParts(const std::filesystem::path& path, Imath::Box2i display, const s
         for (const auto& [name, value] : parts[i].channels) {
             std::vector<float>& plane = values.emplace_back(width * std::size_t(window.max.y - window.min.y + 1));
             for (std::size_t p = 0; p < plane.size(); p++) // a function of the place in the picture
-                plane[p] = value + float(window.min.x - display.min.x + int(p % width)) + 100 * float(window.min.y - display.min.y + int(p / width));
-            buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, plane.data(), window, sizeof(float), sizeof(float) * width));
+                plane[p] = value + float(window.min.x - display.min.x + int(p % width)) +
+                           100 * float(window.min.y - display.min.y + int(p / width));
+            buffer.insert(name,
+                          Imf::Slice::Make(Imf::FLOAT, plane.data(), window, sizeof(float), sizeof(float) * width));
         }
         Imf::OutputPart output(file, int(i));
         output.setFrameBuffer(buffer);
@@ -193,7 +195,8 @@ TEST_F(CompareFiles, WindowsAreHeeded) {
     writeParts(folder / "crop.exr", box(5, 5, 44, 34), {{"", box(15, 8, 30, 20), RGB}});
     for (const auto& [name, width, height] : {std::tuple("elsewhere", 40, 30), {"overscan", 40, 30}, {"crop", 16, 13}})
         for (const bool swapped : {false, true}) {
-            const std::string files = swapped ? fmt::format("{}.exr whole.exr", name) : fmt::format("whole.exr {}.exr", name);
+            const std::string files =
+                swapped ? fmt::format("{}.exr whole.exr", name) : fmt::format("whole.exr {}.exr", name);
             const Result result = run("compare --json " + files);
             ASSERT_EQ(result.code, 0) << result.output;
             const auto json = nlohmann::json::parse(result.output);
@@ -201,7 +204,8 @@ TEST_F(CompareFiles, WindowsAreHeeded) {
             EXPECT_EQ(json["size"], (std::vector{width, height})) << files;
             EXPECT_EQ(json.contains("region"), std::string(name) == "crop");
         }
-    EXPECT_THAT(run("compare whole.exr crop.exr").output, HasSubstr("Compared where both have values: 16x13 pixels from 10,3 on, of 40x30"));
+    EXPECT_THAT(run("compare whole.exr crop.exr").output,
+                HasSubstr("Compared where both have values: 16x13 pixels from 10,3 on, of 40x30"));
 
     writeParts(folder / "other.exr", box(0, 0, 39, 29), {{"", box(0, 0, 9, 29), RGB}});
     writeParts(folder / "shifted.exr", box(0, 0, 95, 79), {{"", box(16, 8, 55, 37), RGB}});
@@ -214,13 +218,17 @@ TEST_F(CompareFiles, WindowsAreHeeded) {
 
 TEST_F(CompareFiles, PicturesOfOtherProgramsAreFound) {
     const Imath::Box2i all = box(0, 0, 15, 11);
-    writeParts(folder / "ours.exr", all, {{"", all, {{"R", 1.0f}, {"G", 2.0f}, {"B", 3.0f}, {"albedo.R", 4.0f}, {"albedo.G", 5.0f}, {"albedo.B", 6.0f}}}});
+    writeParts(folder / "ours.exr", all,
+               {{"",
+                 all,
+                 {{"R", 1.0f}, {"G", 2.0f}, {"B", 3.0f}, {"albedo.R", 4.0f}, {"albedo.G", 5.0f}, {"albedo.B", 6.0f}}}});
     const auto with = [](const std::string& prefix, std::array<std::string, 3> letters, float first) {
         std::vector<std::pair<std::string, float>> channels;
         for (std::size_t i = 0; i < 3; i++) channels.emplace_back(prefix + letters[i], first + float(i));
         return channels;
     };
-    const auto both = [](std::vector<std::pair<std::string, float>> a, const std::vector<std::pair<std::string, float>>& b) {
+    const auto both =
+        [](std::vector<std::pair<std::string, float>> a, const std::vector<std::pair<std::string, float>>& b) {
         a.insert(a.end(), b.begin(), b.end());
         return a;
     };
@@ -229,7 +237,8 @@ TEST_F(CompareFiles, PicturesOfOtherProgramsAreFound) {
         {"Blender", {{"", all, both(with("ViewLayer.Combined.", big, 1), with("ViewLayer.DiffDir.", big, 7))}}},
         {"V-Ray", {{"", all, both(with("", words, 1), with("diffuse.", words, 7))}}},
         {"V-Ray, named", {{"", all, both(with("effectsResult.", words, 9), with("RGB_color.", words, 1))}}},
-        {"Mitsuba, a nested integrator", {{"", all, both(with("image.", big, 1), {{"nn.X", 0.0f}, {"nn.Y", 0.0f}, {"nn.Z", 0.0f}})}}},
+        {"Mitsuba, a nested integrator",
+         {{"", all, both(with("image.", big, 1), {{"nn.X", 0.0f}, {"nn.Y", 0.0f}, {"nn.Z", 0.0f}})}}},
         {"one colour", {{"", all, with("myrender.", small, 1)}}},
         {"beauty in a later part", {{"albedo", all, with("albedo.", big, 4)}, {"beauty", all, with("", big, 1)}}},
         {"parts that repeat their names", {{"rgba", all, with("rgba.", big, 1)}, {"depth", all, {{"depth.Z", 1.0f}}}}}};
@@ -238,7 +247,8 @@ TEST_F(CompareFiles, PicturesOfOtherProgramsAreFound) {
         for (const char* order : {"ours.exr theirs.exr", "theirs.exr ours.exr"}) {
             const Result result = run(std::string("compare --json ") + order);
             ASSERT_EQ(result.code, 0) << name << result.output;
-            EXPECT_EQ(nlohmann::json::parse(result.output)["layers"]["beauty"]["max_error"], 0) << name << result.output;
+            EXPECT_EQ(nlohmann::json::parse(result.output)["layers"]["beauty"]["max_error"], 0)
+                << name << result.output;
         }
     }
     EXPECT_EQ(nlohmann::json::parse(run("compare --json theirs.exr ours.exr").output)["named_in_image"]["R"], "rgba.R");
@@ -247,7 +257,8 @@ TEST_F(CompareFiles, PicturesOfOtherProgramsAreFound) {
     writeParts(folder / "theirs.exr", all, {{"", all, both(with("one.", big, 1), with("two.", big, 1))}});
     const Result unknown = run("compare theirs.exr ours.exr");
     EXPECT_EQ(unknown.code, 2);
-    EXPECT_THAT(unknown.output, AllOf(HasSubstr("found one, two here and beauty, albedo there"), HasSubstr("Combined")));
+    EXPECT_THAT(unknown.output,
+                AllOf(HasSubstr("found one, two here and beauty, albedo there"), HasSubstr("Combined")));
     // A reference that does not cover the picture is refused by its windows.
     writeParts(folder / "crop.exr", box(0, 0, 23, 15), {{"", box(4, 4, 10, 10), RGB}});
     const Result cropped = run("--scene " + scene("box") + Program::small + "--quiet --report r --reference crop.exr");

@@ -1,10 +1,10 @@
-/// How error falls with passes: as 1 / sqrt(n) where light is path or light traced, as the cube root where it is gathered in shrinking
-/// discs (Knaus & Zwicker 2011), and not below the bias of discs that stay.
+/// How error falls with passes: as 1 / sqrt(n) where light is path or light traced, as the cube root where it is
+/// gathered in shrinking discs (Knaus & Zwicker 2011), and not below the bias of discs that stay.
 #include "lamp_in_mirror.h"
 #include "output/exr.h"
 #include "render_support.h"
-#include <numeric>
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace vkpm {
 namespace {
@@ -39,7 +39,8 @@ struct Curve {
 };
 
 /// Errors of a layer after 1, 2, 4 ... `most` passes.
-Curve converge(const char* name, const Scene& scene, Settings settings, uint layer, const Values& truth, uint most, uint seeds) {
+Curve converge(const char* name, const Scene& scene, Settings settings, uint layer, const Values& truth, uint most,
+               uint seeds) {
     Curve curve;
     for (uint seed = 0; seed < seeds; seed++) {
         settings.seed = 10 + seed;

@@ -1,7 +1,8 @@
-/// The origin and the unit of a scene's coordinates: 0 and 1 where they cost nothing, near the shapes elsewhere, and exact.
-#include "scene/coordinates.h"
+/// The origin and the unit of a scene's coordinates: 0 and 1 where they cost nothing, near the shapes elsewhere, and
+/// exact.
 #include "judge.h"
 #include "render_support.h"
+#include "scene/coordinates.h"
 #include "scene/scene.h"
 #include <gtest/gtest.h>
 
@@ -28,7 +29,8 @@ TEST(Origin, IsZeroForScenesThatStandThere) {
     EXPECT_EQ(originFor({}), dvec3(0));
     EXPECT_EQ(originFor({{5, 6, 7}}), dvec3(0)) << "one place has no size";
     for (uint seed = 1; seed < 20; seed++) EXPECT_EQ(originFor(somePlaces(30, seed)), dvec3(0));
-    for (const char* name : {"box", "diffuse_box", "ring", "glass", "pool"}) EXPECT_EQ(shippedScene(name).coordinates, Coordinates{}) << name;
+    for (const char* name : {"box", "diffuse_box", "ring", "glass", "pool"})
+        EXPECT_EQ(shippedScene(name).coordinates, Coordinates{}) << name;
 }
 
 TEST(Origin, FollowsTheShapesFarAway) {
@@ -59,7 +61,8 @@ TEST(Origin, OneShapeOfTheSizeOfAPlanetDoesNotDrawIt) {
 TEST(Unit, IsOneForScenesOfUsualSize) {
     EXPECT_EQ(chooseCoordinates({}).unit, 1);
     EXPECT_EQ(chooseCoordinates({{5, 6, 7}}).unit, 1);
-    for (const double size : {1e-4, 1.0, 1e4}) EXPECT_EQ(chooseCoordinates(changed(somePlaces(30, 5), size, {size, 0, 0})).unit, 1) << size;
+    for (const double size : {1e-4, 1.0, 1e4})
+        EXPECT_EQ(chooseCoordinates(changed(somePlaces(30, 5), size, {size, 0, 0})).unit, 1) << size;
 }
 
 TEST(Unit, IsAPowerOfTwoNearTheSizeOfOthers) {
@@ -68,7 +71,8 @@ TEST(Unit, IsAPowerOfTwoNearTheSizeOfOthers) {
         EXPECT_EQ(std::exp2(std::round(std::log2(chosen.unit))), chosen.unit);
         EXPECT_GT(chosen.unit, 0.1 * size);
         EXPECT_LT(chosen.unit, 4 * size);
-        EXPECT_EQ(chosen.world(vec3(chosen.inside(chosen.origin + dvec3(chosen.unit)))), chosen.origin + dvec3(chosen.unit));
+        EXPECT_EQ(chosen.world(vec3(chosen.inside(chosen.origin + dvec3(chosen.unit)))),
+                  chosen.origin + dvec3(chosen.unit));
     }
 }
 

@@ -9,7 +9,8 @@
 namespace vkpm {
 namespace {
 
-const std::vector<uint> kernels{DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS, DENSITY_KERNEL_EPANECHNIKOV};
+const std::vector<uint> kernels{DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS,
+                                DENSITY_KERNEL_EPANECHNIKOV};
 const std::vector<double> varianceFactors{1, 1.295858, 1.129309, 4.0 / 3}; // over the disc, of the weights
 
 // Over the disc, squared distance is uniform.
@@ -32,7 +33,8 @@ TEST(Density, KernelsAreNormalised) {
 const vec3 color{1, 0.5f, 0.25f};
 
 // Photons uniform over the part of [-1, 1]^2 that `keep` keeps, facing up.
-std::vector<Photon> uniformPhotons(uint count, uint seed, const std::function<bool(vec2)>& keep = [](vec2) { return true; }) {
+std::vector<Photon> uniformPhotons(
+    uint count, uint seed, const std::function<bool(vec2)>& keep = [](vec2) { return true; }) {
     Random random(seed);
     std::vector<Photon> photons;
     for (uint i = 0; i < count; i++) {
@@ -45,7 +47,8 @@ std::vector<Photon> uniformPhotons(uint count, uint seed, const std::function<bo
 std::vector<Query> uniformQueries(uint count, uint seed, uint nearest = 0) {
     Random random(seed);
     std::vector<Query> queries;
-    for (uint i = 0; i < count; i++) queries.push_back(queryAt({random.between(-0.9f, 0.9f), random.between(-0.9f, 0.9f), 0}, nearest));
+    for (uint i = 0; i < count; i++)
+        queries.push_back(queryAt({random.between(-0.9f, 0.9f), random.between(-0.9f, 0.9f), 0}, nearest));
     return queries;
 }
 
@@ -59,7 +62,8 @@ TEST(Density, UniformPhotonsAreEstimatedWithoutBias) {
     const double expected = density * pi * radius * radius;
     for (const uint kernel : kernels) {
         Mean mean;
-        for (const vec3 e : map<vec3>("estimate_within", uniformQueries(8192, 2), {.densityKernel = kernel}, photons.context())) {
+        for (const vec3 e :
+             map<vec3>("estimate_within", uniformQueries(8192, 2), {.densityKernel = kernel}, photons.context())) {
             mean.add(e.x / density);
             ASSERT_NEAR(e.y, e.x / 2, 1e-5 * e.x);
             ASSERT_NEAR(e.z, e.x / 4, 1e-5 * e.x);
@@ -123,7 +127,8 @@ TEST(Density, NearestRadiusIsTheDistanceOfTheKthPhoton) {
         for (std::size_t i = 0; i < queries.size(); i++) {
             // Squared distances are told apart to 2^-20 of the search radius's.
             const double expected = bruteForceNearest(photons, queries[i], 0.2f);
-            ASSERT_NEAR(radii[i] * radii[i], expected * expected, 0.04 * 0x1p-20 + 4e-6 * expected * expected) << nearest;
+            ASSERT_NEAR(radii[i] * radii[i], expected * expected, 0.04 * 0x1p-20 + 4e-6 * expected * expected)
+                << nearest;
         }
     }
 }
@@ -133,17 +138,21 @@ TEST(Density, NearestRadiusOfPhotonsEquallyFar) {
     std::vector<Photon> photons;
     for (int i = 0; i < 64; i++) photons.push_back({vec3{0.5, 0, 0}, color, normalUp});
     const TestMap onDevice(photons, 1);
-    for (const float r : map<float>("nearest_radius", std::vector{queryAt({0, 0, 0}, 1), queryAt({0, 0, 0}, 64)}, {}, onDevice.context()))
+    for (const float r : map<float>("nearest_radius", std::vector{queryAt({0, 0, 0}, 1), queryAt({0, 0, 0}, 64)}, {},
+                                    onDevice.context()))
         EXPECT_NEAR(r, 0.5, 2e-6);
     EXPECT_EQ(map<float>("nearest_radius", std::vector{queryAt({0, 0, 0}, 65)}, {}, onDevice.context())[0], 1);
 }
 
-// With the constant kernel k - 1 photons lie within the k-th distance: with k the mean would be k / (k - 1), 11 % at k = 10.
+// With the constant kernel k - 1 photons lie within the k-th distance: with k the mean would be k / (k - 1), 11 % at k
+// = 10.
 TEST(Density, NearestEstimatesAreUnbiased) {
     const TestMap photons(uniformPhotons(photonCount, 7), radius);
     for (const uint nearest : {5u, 10u, 30u}) {
         Mean mean;
-        for (const vec3 e : map<vec3>("estimate_nearest", uniformQueries(8192, 8, nearest), {.hasNearest = 1}, photons.context())) mean.add(e.x / density);
+        for (const vec3 e :
+             map<vec3>("estimate_nearest", uniformQueries(8192, 8, nearest), {.hasNearest = 1}, photons.context()))
+            mean.add(e.x / density);
         EXPECT_NEAR(mean.mean(), 1, 5 * std::hypot(mean.error(), std::sqrt(1 / (0.81 * photonCount)))) << nearest;
         EXPECT_NEAR(mean.deviation(), 1 / std::sqrt(nearest - 2.0), 0.1 / std::sqrt(nearest - 2.0)) << nearest;
     }
@@ -154,22 +163,36 @@ Mean alongEdge(const TestMap& photons, const std::function<vec3(float)>& place, 
     std::vector<Query> queries;
     for (int i = 0; i < 40; i++) queries.push_back(queryAt(place(-0.9f + 0.045f * float(i))));
     Mean mean;
-    for (const vec3 e : map<vec3>("estimate_within", queries, {.densityKernel = kernel}, photons.context())) mean.add(e.x / density);
+    for (const vec3 e : map<vec3>("estimate_within", queries, {.densityKernel = kernel}, photons.context()))
+        mean.add(e.x / density);
     return mean;
 }
 
 TEST(Density, EdgesSeeAHalfAndCornersAQuarter) {
     const TestMap half(uniformPhotons(photonCount, 9, [](vec2 p) { return p.x > 0; }), radius);
     // A corner at the middle of each of 45 x 45 squares along the diagonal.
-    const TestMap corners(uniformPhotons(photonCount, 10, [](vec2 p) {
+    const TestMap corners(uniformPhotons(
+                              photonCount, 10,
+                              [](vec2 p) {
         const vec2 q = (p + 0.9225f) / 0.045f;
         return q.x - std::floor(q.x) > 0.5f && q.y - std::floor(q.y) > 0.5f;
-    }), radius);
+                              }),
+                          radius);
     for (const uint kernel : kernels) {
-        const Mean edge = alongEdge(half, [](float s) { return vec3{0, s, 0}; }, kernel);
+        const Mean edge = alongEdge(
+            half,
+            [](float s) {
+            return vec3{0, s, 0};
+            },
+            kernel);
         EXPECT_NEAR(edge.mean(), 0.5, 5 * edge.error()) << kernel;
         EXPECT_LT(edge.error(), 0.03);
-        const Mean corner = alongEdge(corners, [](float s) { return vec3{s, s, 0}; }, kernel);
+        const Mean corner = alongEdge(
+            corners,
+            [](float s) {
+            return vec3{s, s, 0};
+            },
+            kernel);
         EXPECT_NEAR(corner.mean(), 0.25, 5 * corner.error()) << kernel;
         EXPECT_LT(corner.error(), 0.03);
     }
@@ -177,14 +200,16 @@ TEST(Density, EdgesSeeAHalfAndCornersAQuarter) {
 
 TEST(Density, OneAndNoPhotons) {
     const double area = pi * 0.25;
-    const std::vector<Query> queries{queryAt({1, 2, 3}), queryAt({1.4f, 2, 3}), queryAt({1.6f, 2, 3}), queryAt({-100, 1e6f, 3})};
+    const std::vector<Query> queries{queryAt({1, 2, 3}), queryAt({1.4f, 2, 3}), queryAt({1.6f, 2, 3}),
+                                     queryAt({-100, 1e6f, 3})};
     const TestMap one({{{1, 2, 3}, color, normalUp}}, 0.5f);
     const auto ys = map<vec3>("estimate_within", queries, {}, one.context());
     for (const int i : {0, 1}) EXPECT_LT(glm::length(ys[i] - color / float(area)), 1e-6);
     for (const int i : {2, 3}) EXPECT_EQ(ys[i], vec3(0));
     const TestMap none({}, 0.5f);
     for (const vec3 y : map<vec3>("estimate_within", queries, {}, none.context())) EXPECT_EQ(y, vec3(0));
-    for (const float r : map<float>("nearest_radius", std::vector{queryAt({1, 2, 3}, 5)}, {}, none.context())) EXPECT_EQ(r, 0.5f);
+    for (const float r : map<float>("nearest_radius", std::vector{queryAt({1, 2, 3}, 5)}, {}, none.context()))
+        EXPECT_EQ(r, 0.5f);
 }
 
 } // namespace

@@ -23,7 +23,8 @@ class Drivers : public Program {
 protected:
     Layers renderWith(const fs::path& driver, const char* device) const {
         const std::string environment = fmt::format("VK_DRIVER_FILES='{0}' VK_ICD_FILENAMES='{0}'", driver.string());
-        const Result result = run("--scene " + scene("box") + " --size 64x64 --passes 2 --quiet -o box.exr", environment);
+        const Result result =
+            run("--scene " + scene("box") + " --size 64x64 --passes 2 --quiet -o box.exr", environment);
         EXPECT_EQ(result.code, 0) << result.output;
         if (result.code != 0) return {};
         const Image image = readExr(folder / "box.exr");
@@ -40,9 +41,9 @@ protected:
     }
 };
 
-// Drivers round differently, and now and then rounding sends a path elsewhere: over sixteen seeds no mean was off by more than
-// 5.4e-4, and no root of mean squares by more than 3.8e-3. Where directions came from the drivers' own sine, these were
-// 2e-3 and 0.14.
+// Drivers round differently, and now and then rounding sends a path elsewhere: over sixteen seeds no mean was off by
+// more than 5.4e-4, and no root of mean squares by more than 3.8e-3. Where directions came from the drivers' own sine,
+// these were 2e-3 and 0.14.
 const double meanTolerance = 1e-3;
 const double rootTolerance = 2e-2;
 

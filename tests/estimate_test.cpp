@@ -1,7 +1,8 @@
-/// Whether renders know how wrong they are: intervals of pixels and the error of pictures against closed forms and a long render.
+/// Whether renders know how wrong they are: intervals of pixels and the error of pictures against closed forms and a
+/// long render.
 #include "lamp_in_mirror.h"
-#include "render/error_estimate.h"
 #include "output/exr.h"
+#include "render/error_estimate.h"
 #include "render/noise.h"
 #include "shared_layers.h"
 #include <gtest/gtest.h>
@@ -57,8 +58,9 @@ void expectTrue(const char* name, const Scene& scene, Settings settings, uint pa
         inside += last.inside / seeds;
         better += double(last.error <= last.estimate.error) / seeds;
     }
-    std::printf("%s, %u passes: %.3f of the intervals hold the truth, %.2f of the pictures are as good as they say (last: %.4f; %s)\n", name, passes,
-                inside, better, last.error, describe(last.estimate).c_str());
+    std::printf("%s, %u passes: %.3f of the intervals hold the truth, %.2f of the pictures are as good as they say "
+                "(last: %.4f; %s)\n",
+                name, passes, inside, better, last.error, describe(last.estimate).c_str());
     EXPECT_GE(inside, 0.85) << name;
     EXPECT_LE(inside, 0.95) << name;
     EXPECT_GE(better, 0.8) << name; // of 20 draws with a probability of 0.9, fewer than 16 come once in 25 times
@@ -74,18 +76,21 @@ TEST(Estimate, IsTrueOfTheBox) {
     expectTrue("box", scene, settings, 40, referenceLayer(reference, ""), 5);
 }
 
-// References by path and light tracing, which share no estimator with photon maps: tools/study reference --size 48x48 --small, with
-// errors of 1.3, 1 and 1.5 %. Those of glass and pool (9 and 22 %) are too noisy where light goes S D S to judge by.
+// References by path and light tracing, which share no estimator with photon maps: tools/study reference --size 48x48
+// --small, with errors of 1.3, 1 and 1.5 %. Those of glass and pool (9 and 22 %) are too noisy where light goes S D S
+// to judge by.
 TEST(Estimate, IsTrueOfShippedScenes) {
     for (const char* name : {"box", "diffuse_box", "ring"}) {
-        const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "references" / (std::string(name) + ".exr"));
+        const Image reference =
+            readExr(std::filesystem::path(VKPM_TEST_DATA) / "references" / (std::string(name) + ".exr"));
         const Scene scene = shippedScene(name);
         Settings settings = scene.settings;
         settings.size = reference.size;
         settings.photons = settings.causticPhotons = 50'000;
         settings.seed = 5;
         const Judged found = judge(scene, settings, 16, referenceLayer(reference, ""));
-        std::printf("%s: %.3f of the intervals hold the truth, off by %.4f; %s\n", name, found.inside, found.error, describe(found.estimate).c_str());
+        std::printf("%s: %.3f of the intervals hold the truth, off by %.4f; %s\n", name, found.inside, found.error,
+                    describe(found.estimate).c_str());
         EXPECT_GE(found.inside, 0.83) << name; // of one render, whose pixels share their photons
         EXPECT_LE(found.inside, 0.97) << name;
         EXPECT_LE(found.error, 1.1 * found.estimate.error) << name;
@@ -95,7 +100,8 @@ TEST(Estimate, IsTrueOfShippedScenes) {
 // Caustics as photons connected to the camera find them and as the map does.
 TEST(Estimate, CausticsAreThoseOfLightTracing) {
     for (const char* name : {"box", "ring", "glass"}) {
-        const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "references" / (std::string(name) + ".exr"));
+        const Image reference =
+            readExr(std::filesystem::path(VKPM_TEST_DATA) / "references" / (std::string(name) + ".exr"));
         const Scene scene = shippedScene(name);
         Settings settings = scene.settings;
         settings.size = reference.size;

@@ -1,4 +1,5 @@
-/// The program that is compiled for a scene renders the bits of the general one: on the shipped scenes and on random ones.
+/// The program that is compiled for a scene renders the bits of the general one: on the shipped scenes and on random
+/// ones.
 #include "draw.h"
 #include "judge.h"
 #include "render_support.h"
@@ -37,7 +38,8 @@ TEST(Features, ShippedScenesRenderTheSameBits) {
         Settings settings = scene.settings;
         settings.size = {24, 16};
         settings.photons = settings.causticPhotons = 1000;
-        for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_DIRECT, INTEGRATOR_PHOTON_MAP, INTEGRATOR_LIGHT}) {
+        for (const uint integrator :
+             {INTEGRATOR_PHOTON, INTEGRATOR_PATH, INTEGRATOR_DIRECT, INTEGRATOR_PHOTON_MAP, INTEGRATOR_LIGHT}) {
             settings.integrator = integrator;
             expectSameBits(scene, settings, name);
         }
@@ -54,12 +56,16 @@ TEST(Features, LayersAskedForAreThoseOfTheWhole) {
             settings.photons = settings.causticPhotons = 1000;
             settings.integrator = integrator;
             const std::vector<Pixel> whole = renderWith(scene, settings, false);
-            for (const uint layers : {1u << LAYER_CAUSTIC, 1u << LAYER_INDIRECT, 1u << LAYER_SPECULAR, 1u << LAYER_DIRECT, 1u << LAYER_EMISSION | 1u << LAYER_CAUSTIC, 1u << ASK_ALBEDO | 1u << ASK_DEPTH}) {
+            for (const uint layers :
+                 {1u << LAYER_CAUSTIC, 1u << LAYER_INDIRECT, 1u << LAYER_SPECULAR, 1u << LAYER_DIRECT,
+                  1u << LAYER_EMISSION | 1u << LAYER_CAUSTIC, 1u << ASK_ALBEDO | 1u << ASK_DEPTH}) {
                 settings.layers = layers;
                 const std::vector<Pixel> part = renderWith(scene, settings, false);
                 for (std::size_t i = 0; i < whole.size(); i++) {
                     for (uint layer = 0; layer < LAYER_COUNT; layer++)
-                        ASSERT_EQ(part[i].mean.layers[layer], layers >> layer & 1 ? whole[i].mean.layers[layer] : vec3(0)) << name << " " << layer;
+                        ASSERT_EQ(part[i].mean.layers[layer],
+                                  layers >> layer & 1 ? whole[i].mean.layers[layer] : vec3(0))
+                            << name << " " << layer;
                     ASSERT_EQ(part[i].mean.albedo, layers >> ASK_ALBEDO & 1 ? whole[i].mean.albedo : vec3(0));
                     ASSERT_EQ(part[i].mean.depth, layers >> ASK_DEPTH & 1 ? whole[i].mean.depth : 0);
                 }
@@ -107,11 +113,20 @@ TEST(Features, LeavingOutWhatASceneNeedsIsFoundOut) {
         EXPECT_NO_THROW(renderWithout(scene, [](Features&) {})) << name;
         uint tried = 0;
         for (const auto& [label, feature] : std::initializer_list<std::pair<const char*, bool Features::*>>{
-                 {"hasTriangles", &Features::hasTriangles}, {"hasSpheres", &Features::hasSpheres}, {"hasSmoothNormals", &Features::hasSmoothNormals}, {"hasSmoothDiffuse", &Features::hasSmoothDiffuse},
-                 {"hasDiffuse", &Features::hasDiffuse}, {"hasMirror", &Features::hasMirror}, {"hasGlass", &Features::hasGlass}, {"hasTint", &Features::hasTint},
-                 {"hasExactFresnel", &Features::hasExactFresnel}, {"hasManyLights", &Features::hasManyLights},
-                 {"hasRectangleLights", &Features::hasRectangleLights}, {"hasTriangleLights", &Features::hasTriangleLights},
-                 {"hasSphereLights", &Features::hasSphereLights}, {"hasTwoSidedLights", &Features::hasTwoSidedLights}}) {
+                 {"hasTriangles", &Features::hasTriangles},
+                 {"hasSpheres", &Features::hasSpheres},
+                 {"hasSmoothNormals", &Features::hasSmoothNormals},
+                 {"hasSmoothDiffuse", &Features::hasSmoothDiffuse},
+                 {"hasDiffuse", &Features::hasDiffuse},
+                 {"hasMirror", &Features::hasMirror},
+                 {"hasGlass", &Features::hasGlass},
+                 {"hasTint", &Features::hasTint},
+                 {"hasExactFresnel", &Features::hasExactFresnel},
+                 {"hasManyLights", &Features::hasManyLights},
+                 {"hasRectangleLights", &Features::hasRectangleLights},
+                 {"hasTriangleLights", &Features::hasTriangleLights},
+                 {"hasSphereLights", &Features::hasSphereLights},
+                 {"hasTwoSidedLights", &Features::hasTwoSidedLights}}) {
             if (!(has.*feature)) continue;
             tried++;
             try {
@@ -127,7 +142,8 @@ TEST(Features, LeavingOutWhatASceneNeedsIsFoundOut) {
 
 // A lamp of the size and distance of the sun.
 TEST(Features, FarLightsAreMissed) {
-    const Scene scene = loadJson(json::parse(R"({"camera": {"origin": [0, 1, 3], "target": [0, 0, 0]}, "materials": {"grey": {"type": "diffuse", "albedo": 0.5}},
+    const Scene scene = loadJson(json::parse(
+        R"({"camera": {"origin": [0, 1, 3], "target": [0, 0, 0]}, "materials": {"grey": {"type": "diffuse", "albedo": 0.5}},
         "shapes": [{"type": "rectangle", "corner": [-1, 0, 1], "edges": [[2, 0, 0], [0, 0, -2]], "material": "grey"},
                    {"type": "sphere", "center": [0, 100, 0], "radius": 0.5, "emission": 1}]})"));
     EXPECT_NO_THROW(renderWithout(scene, [](Features&) {}));
@@ -148,9 +164,13 @@ public:
         shapes = json::array();
         const bool onlySpheres = random.bits() % 6 == 0;
         if (!onlySpheres && maybe()) room();
-        for (uint i = 0, n = 1 + random.bits() % 4; i < n; i++) shapes.push_back(onlySpheres || maybe() ? sphere() : maybe() ? rectangle() : mesh());
+        for (uint i = 0, n = 1 + random.bits() % 4; i < n; i++)
+            shapes.push_back(onlySpheres || maybe() ? sphere() : maybe() ? rectangle() : mesh());
         for (uint i = 0, n = 1 + random.bits() % 3; i < n; i++) shapes.push_back(light(onlySpheres));
-        return {{"camera", {{"origin", {random.between(-0.2f, 0.2f), 0.1, 0.9}}, {"target", {0, 0, 0}}, {"fieldOfView", random.between(30, 100)}}},
+        return {{"camera",
+                 {{"origin", {random.between(-0.2f, 0.2f), 0.1, 0.9}},
+                  {"target", {0, 0, 0}},
+                  {"fieldOfView", random.between(30, 100)}}},
                 {"materials", materials},
                 {"shapes", shapes}};
     }
@@ -176,20 +196,36 @@ public:
 
 private:
     bool maybe() { return random.bits() % 2 == 0; }
-    json color(float low, float high) { return {random.between(low, high), random.between(low, high), random.between(low, high)}; }
-    json vector(float half) { return {random.between(-half, half), random.between(-half, half), random.between(-half, half)}; }
+    json color(float low, float high) {
+        return {random.between(low, high), random.between(low, high), random.between(low, high)};
+    }
+    json vector(float half) {
+        return {random.between(-half, half), random.between(-half, half), random.between(-half, half)};
+    }
     std::string material() {
         auto chosen = materials.begin();
         std::advance(chosen, random.bits() % materials.size());
         return chosen.key();
     }
 
-    json sphere() { return {{"type", "sphere"}, {"center", vector(0.6f)}, {"radius", random.between(0.05f, 0.4f)}, {"material", material()}}; }
+    json sphere() {
+        return {{"type", "sphere"},
+                {"center", vector(0.6f)},
+                {"radius", random.between(0.05f, 0.4f)},
+                {"material", material()}};
+    }
     json rectangle() {
-        return {{"type", "rectangle"}, {"corner", vector(0.8f)}, {"edges", {{random.between(0.2f, 1), random.between(-0.3f, 0.3f), 0}, {0, random.between(-0.3f, 0.3f), -0.5}}}, {"material", material()}};
+        return {{"type", "rectangle"},
+                {"corner", vector(0.8f)},
+                {"edges",
+                 {{random.between(0.2f, 1), random.between(-0.3f, 0.3f), 0}, {0, random.between(-0.3f, 0.3f), -0.5}}},
+                {"material", material()}};
     }
     json mesh() {
-        return {{"type", "mesh"}, {"file", std::string(VKPM_SCENES) + (maybe() ? "/ring.obj" : "/knot.obj")}, {"material", material()}, {"transform", {{{"scale", 0.1}}, {{"translate", vector(0.5f)}}}}};
+        return {{"type", "mesh"},
+                {"file", std::string(VKPM_SCENES) + (maybe() ? "/ring.obj" : "/knot.obj")},
+                {"material", material()},
+                {"transform", {{{"scale", 0.1}}, {{"translate", vector(0.5f)}}}}};
     }
     json light(bool onlySpheres) {
         json shape = onlySpheres || maybe() ? sphere() : rectangle();
@@ -207,7 +243,8 @@ private:
                 corner[axis] = side;
                 u[(axis + 1) % 3] = 2;
                 v[(axis + 2) % 3] = 2;
-                shapes.push_back({{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", material()}});
+                shapes.push_back(
+                    {{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", material()}});
             }
     }
 
@@ -230,7 +267,8 @@ RandomScene randomScene(uint seed) {
     random.settings = generator.settings();
     std::vector<std::array<uint, 2>> values;
     const Features features = sceneFeatures(loadJson(random.text), random.settings);
-#define X(id, type, name, value) if (id != id_stackSize && id != id_checksFeatures) values.push_back({id, uint(features.name)});
+#define X(id, type, name, value)                                                                                       \
+    if (id != id_stackSize && id != id_checksFeatures) values.push_back({id, uint(features.name)});
     FEATURES(X)
 #undef X
     for (const auto& [a, va] : values)
@@ -239,11 +277,14 @@ RandomScene randomScene(uint seed) {
     return random;
 }
 
-/// Moves to the front the scenes that have all pairs between them, each the one with most that are still missing; returns how many.
+/// Moves to the front the scenes that have all pairs between them, each the one with most that are still missing;
+/// returns how many.
 std::size_t coverFirst(std::vector<RandomScene>& scenes) {
     std::set<std::array<uint, 4>> had;
     for (std::size_t chosen = 0; chosen < scenes.size(); chosen++) {
-        const auto adds = [&](const RandomScene& scene) { return std::ranges::count_if(scene.pairs, [&](const auto& pair) { return !had.contains(pair); }); };
+        const auto adds = [&](const RandomScene& scene) {
+            return std::ranges::count_if(scene.pairs, [&](const auto& pair) { return !had.contains(pair); });
+        };
         const auto best = std::ranges::max_element(scenes.begin() + std::ptrdiff_t(chosen), scenes.end(), {}, adds);
         if (adds(*best) == 0) return chosen;
         had.insert(best->pairs.begin(), best->pairs.end());
@@ -252,7 +293,8 @@ std::size_t coverFirst(std::vector<RandomScene>& scenes) {
     return scenes.size();
 }
 
-// Features act on each other in pairs: scenes that have all pairs of 240 between them, and some more, drawn anew with each commit.
+// Features act on each other in pairs: scenes that have all pairs of 240 between them, and some more, drawn anew with
+// each commit.
 TEST(Features, RandomScenesRenderTheSameBits) {
     std::vector<RandomScene> scenes;
     for (uint seed = 0; seed < 240; seed++) scenes.push_back(randomScene(seed));
@@ -261,7 +303,8 @@ TEST(Features, RandomScenesRenderTheSameBits) {
     if (!isNightly()) scenes.resize(std::min(cover + 8, scenes.size()));
     uint lit = 0;
     for (const RandomScene& scene : scenes)
-        lit += expectSameBits(loadJson(scene.text), scene.settings, "seed " + std::to_string(scene.seed) + ": " + scene.text.dump()) > 1e-4;
+        lit += expectSameBits(loadJson(scene.text), scene.settings,
+                              "seed " + std::to_string(scene.seed) + ": " + scene.text.dump()) > 1e-4;
     std::printf("%zu scenes have all pairs; of %zu rendered, %u are lit\n", cover, scenes.size(), lit);
     EXPECT_GT(lit, scenes.size() / 3);
 }

@@ -16,7 +16,8 @@ std::vector<vec3> unitVectors() {
         }
     const float below = std::nextafter(1.0f, 0.0f), side = std::sqrt(1 - below * below);
     for (const float z : {below, -below})
-        for (const vec3 v : {vec3{0, 0, z}, vec3{side, 0, z}, vec3{0, -side, z}, vec3{1, 0, 0 * z}}) vectors.push_back(v);
+        for (const vec3 v : {vec3{0, 0, z}, vec3{side, 0, z}, vec3{0, -side, z}, vec3{1, 0, 0 * z}})
+            vectors.push_back(v);
     Random random(1);
     for (int i = 0; i < 100'000; i++) vectors.push_back(random.direction());
     return vectors;
@@ -41,7 +42,8 @@ TEST(Frame, ToWorldIsOrthonormal) {
 
 TEST(Frame, ToWorldIsLinear) {
     const vec3 n = glm::normalize(vec3{1, -2, -3});
-    const auto ys = map<vec3>("to_world", std::vector<VectorPair>{{{1, 0, 0}, n}, {{0, 1, 0}, n}, {{0, 0, 1}, n}, {{2, -3, 5}, n}});
+    const auto ys =
+        map<vec3>("to_world", std::vector<VectorPair>{{{1, 0, 0}, n}, {{0, 1, 0}, n}, {{0, 0, 1}, n}, {{2, -3, 5}, n}});
     EXPECT_LT(glm::length(ys[3] - (2.0f * ys[0] - 3.0f * ys[1] + 5.0f * ys[2])), 1e-5);
 }
 

@@ -1,12 +1,12 @@
 /// A hundred thousand damaged scenes and meshes: each is loaded whole, or refused by name and place, at once and in
 /// little memory.
-#include "draw.h"
 #include "allocations.h"
+#include "draw.h"
 #include "mutate.h"
 #include "refusal.h"
+#include "render/explain.h"
 #include "render/features.h"
 #include "render/radius.h"
-#include "render/explain.h"
 #include "scene/identity.h"
 #include "scene_text.h"
 #include "shared_photons.h"
@@ -206,8 +206,9 @@ Outcome load(const fs::path& file) {
 volatile std::uint64_t current = 0, currentSeed = 0;
 
 void onSignal(int signal) {
-    std::fprintf(stderr, "input %llu: signal %d; VKPM_FUZZ_SEED=%llu VKPM_FUZZ_FIRST=%llu repeats it\n", static_cast<unsigned long long>(current), signal,
-                 static_cast<unsigned long long>(currentSeed), static_cast<unsigned long long>(current));
+    std::fprintf(stderr, "input %llu: signal %d; VKPM_FUZZ_SEED=%llu VKPM_FUZZ_FIRST=%llu repeats it\n",
+                 static_cast<unsigned long long>(current), signal, static_cast<unsigned long long>(currentSeed),
+                 static_cast<unsigned long long>(current));
     std::_Exit(1);
 }
 

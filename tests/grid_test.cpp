@@ -13,7 +13,8 @@ namespace {
 // Photons that can be told apart by colour: (1, index, a number); sums of these integers are exact in float.
 std::vector<Photon> photonsAt(const std::vector<vec3>& positions) {
     std::vector<Photon> photons;
-    for (std::size_t i = 0; i < positions.size(); i++) photons.push_back({positions[i], vec3{1, i, i * 7919 % 251}, normalUp});
+    for (std::size_t i = 0; i < positions.size(); i++)
+        photons.push_back({positions[i], vec3{1, i, i * 7919 % 251}, normalUp});
     return photons;
 }
 
@@ -44,7 +45,8 @@ void expectEveryPhotonInItsCell(const std::vector<Photon>& photons, const TestMa
 
 // Counts and sums of colours are those of the photons nearer than the radius; queries with a photon at the radius to a
 // rounding are left out. Returns the neighbours found.
-double expectNeighbours(const std::vector<Photon>& photons, const std::vector<Query>& queries, const TestMap& onDevice) {
+double expectNeighbours(const std::vector<Photon>& photons, const std::vector<Query>& queries,
+                        const TestMap& onDevice) {
     const double radius = onDevice.map.radius, area = pi * radius * radius;
     const auto found = map<vec3>("estimate_within", queries, {}, onDevice.context());
     double neighbours = 0;
@@ -53,7 +55,8 @@ double expectNeighbours(const std::vector<Photon>& photons, const std::vector<Qu
         bool clear = true;
         for (const Photon& photon : photons) {
             if (distance2(photon, queries[i], radius) < INFINITY) sum += glm::dvec3(photon.color);
-            clear &= (distance2(photon, queries[i], radius * (1 + 1e-6)) == INFINITY) == (distance2(photon, queries[i], radius * (1 - 1e-6)) == INFINITY);
+            clear &= (distance2(photon, queries[i], radius * (1 + 1e-6)) == INFINITY) ==
+                     (distance2(photon, queries[i], radius * (1 - 1e-6)) == INFINITY);
         }
         if (!clear) continue;
         for (int k = 0; k < 3; k++) EXPECT_NEAR(found[i][k] * area, sum[k], 1e-6 * sum[k] + 1e-6) << "query " << i;
@@ -71,7 +74,8 @@ double checkCloud(uint count, vec3 center, vec3 half, float radius, uint seed) {
     for (vec3& position : positions) position = place();
     std::vector<Query> queries;
     for (int i = 0; i < 400; i++) // half of the discs lean
-        queries.push_back(queryAt(place(), 0, glm::normalize(vec3{0, 0, 1} + (i % 2 ? random.cube(1) * 0.9f : vec3{0}))));
+        queries.push_back(
+            queryAt(place(), 0, glm::normalize(vec3{0, 0, 1} + (i % 2 ? random.cube(1) * 0.9f : vec3{0}))));
     const auto photons = photonsAt(positions);
     double neighbours = 0;
     for (const uint levels : {0u, 1u, 3u}) {
@@ -106,7 +110,8 @@ TEST(Grid, BeyondAllCells) {
     expectEveryPhotonInItsCell(photons, onDevice);
     std::vector<Query> queries;
     for (const Photon& photon : photons) queries.push_back(queryAt(photon.position));
-    for (const vec3 found : map<vec3>("estimate_within", queries, {}, onDevice.context())) EXPECT_NEAR(found.x * pi, 1, 1e-6);
+    for (const vec3 found : map<vec3>("estimate_within", queries, {}, onDevice.context()))
+        EXPECT_NEAR(found.x * pi, 1, 1e-6);
 }
 
 // Photons and queries exactly at the borders of cells, at their neighbouring floats, and a radius apart.
@@ -118,9 +123,12 @@ TEST(Grid, PhotonsAtTheBordersOfCells) {
         for (int y = -4; y <= 4; y++)
             for (const float side : {-INFINITY, 0.0f, INFINITY}) {
                 const vec3 corner{float(x) * cell / 2, float(y) * cell / 2, 0};
-                const vec3 p = side == 0 ? corner : vec3{std::nextafter(corner.x, side), std::nextafter(corner.y, side), 0};
+                const vec3 p =
+                    side == 0 ? corner : vec3{std::nextafter(corner.x, side), std::nextafter(corner.y, side), 0};
                 positions.push_back(p);
-                for (const vec3 d : {vec3{0, 0, 0}, vec3{0.999f, 0, 0}, vec3{0, -0.999f, 0}, vec3{-0.7f, 0.7f, 0}, vec3{0, 0, 0.05f}}) queries.push_back(queryAt(p + d));
+                for (const vec3 d :
+                     {vec3{0, 0, 0}, vec3{0.999f, 0, 0}, vec3{0, -0.999f, 0}, vec3{-0.7f, 0.7f, 0}, vec3{0, 0, 0.05f}})
+                    queries.push_back(queryAt(p + d));
             }
     const auto photons = photonsAt(positions);
     const TestMap onDevice(photons, radius);
@@ -142,7 +150,8 @@ TEST(Grid, PhotonsOfOneKey) {
         if (keys[i] == keys[0]) positions.push_back(candidates[i]);
     ASSERT_GE(positions.size(), 300u);
     while (positions.size() < wanted) positions.push_back(positions[random.bits() % 300] + random.cube(0.01f));
-    for (std::size_t i = 0; i < 300; i++) queries.push_back(queryAt(positions[i] + vec3{random.between(-1, 1), random.between(-1, 1), 0}));
+    for (std::size_t i = 0; i < 300; i++)
+        queries.push_back(queryAt(positions[i] + vec3{random.between(-1, 1), random.between(-1, 1), 0}));
     const auto photons = photonsAt(positions);
     const TestMap onDevice(photons, 1, 0);
     ASSERT_EQ(onDevice.map.cellMask, mask);
@@ -176,13 +185,16 @@ Kept keptIn(const PhotonMap& onDevice) {
     return kept;
 }
 
-// No cell has more photons than it may, all flux is there, and it is where it was: the sum of colours exactly, since those that
-// stay carry the flux of whole numbers of others; the mean place as exactly as a random choice among runs allows.
+// No cell has more photons than it may, all flux is there, and it is where it was: the sum of colours exactly, since
+// those that stay carry the flux of whole numbers of others; the mean place as exactly as a random choice among runs
+// allows.
 TEST(Grid, CrowdedCellsAreThinned) {
     Random random(13);
-    for (const uint count : {MAX_PHOTONS_PER_CELL + 1, MAX_PHOTONS_PER_CELL * 5 / 4, 2 * MAX_PHOTONS_PER_CELL - 1, 5000u, 65'537u, 1'000'000u}) {
+    for (const uint count : {MAX_PHOTONS_PER_CELL + 1, MAX_PHOTONS_PER_CELL * 5 / 4, 2 * MAX_PHOTONS_PER_CELL - 1,
+                             5000u, 65'537u, 1'000'000u}) {
         std::vector<Photon> photons(count);
-        for (Photon& photon : photons) photon = {vec3{random.between(0, 0.5f), random.between(0, 0.5f), 0}, vec3{1}, normalUp};
+        for (Photon& photon : photons)
+            photon = {vec3{random.between(0, 0.5f), random.between(0, 0.5f), 0}, vec3{1}, normalUp};
         Buffer<Photon> buffer(testGpu(), "photons", photons);
         PhotonGrid grid(testGpu(), "test");
         Mean centre;
@@ -208,7 +220,8 @@ TEST(Grid, OthersStayAsTheyAre) {
     std::vector<vec3> expected;
     for (const bool overfull : {false, true}) {
         const uint more = overfull ? 50'000 : 0;
-        for (uint i = 0; i < more; i++) positions.push_back({random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f), 0});
+        for (uint i = 0; i < more; i++)
+            positions.push_back({random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f), 0});
         const auto photons = photonsAt(positions);
         Buffer<Photon> buffer(testGpu(), "photons", photons);
         PhotonGrid grid(testGpu(), "test");

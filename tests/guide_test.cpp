@@ -1,4 +1,5 @@
-/// Photons sent where the eye looks: the density over the numbers that start them, what is learned, the marks, and pictures.
+/// Photons sent where the eye looks: the density over the numbers that start them, what is learned, the marks, and
+/// pictures.
 #include "judge.h"
 #include "map_args.h"
 #include "render_support.h"
@@ -76,7 +77,8 @@ std::vector<LeafBox> leavesOf(const std::vector<GuideNode>& nodes) {
 }
 
 // Cuts three axes, one of them twice, to very different parts.
-const std::vector<GuideNode> byHand{{4, 0.9f, 1}, {0, 0.3f, 3}, {6, 0.999f, 5}, {NONE, 0, 0}, {4, 0.25f, 7}, {NONE, 0, 0}, {NONE, 0, 0}, {NONE, 0, 0}, {NONE, 0, 0}};
+const std::vector<GuideNode> byHand{{4, 0.9f, 1}, {0, 0.3f, 3}, {6, 0.999f, 5}, {NONE, 0, 0}, {4, 0.25f, 7},
+                                    {NONE, 0, 0}, {NONE, 0, 0}, {NONE, 0, 0},   {NONE, 0, 0}};
 
 TEST(Guide, NumbersHaveTheDensityOfTheTree) {
     const uint count = 1u << 18;
@@ -89,7 +91,8 @@ TEST(Guide, NumbersHaveTheDensityOfTheTree) {
             if (!leaf.holds(start)) continue;
             held++;
             mean.add(double(start.inverseDensity) / (leaf.volume / leaf.probability));
-            for (uint i = 0; i < PRIMARY_DIMENSIONS; i++) place.add((double(start.numbers[i]) - leaf.low[i]) / leaf.width[i]);
+            for (uint i = 0; i < PRIMARY_DIMENSIONS; i++)
+                place.add((double(start.numbers[i]) - leaf.low[i]) / leaf.width[i]);
         }
         const double expected = count * leaf.probability;
         EXPECT_NEAR(held, expected, 5 * std::sqrt(expected * (1 - leaf.probability)));
@@ -111,7 +114,8 @@ TEST(Guide, EvenlySpreadNumbersStaySo) {
     const std::vector<PrimarySample> starts = guided(nodes, line);
     for (uint i = 1; i < starts.size(); i++) {
         const float step = starts[i].numbers[4] - starts[i - 1].numbers[4];
-        ASSERT_NEAR(step, (starts[i].inverseDensity + starts[i - 1].inverseDensity) / 2 / float(line.size()), 1e-5) << i;
+        ASSERT_NEAR(step, (starts[i].inverseDensity + starts[i - 1].inverseDensity) / 2 / float(line.size()), 1e-5)
+            << i;
         ASSERT_EQ(starts[i].numbers[3], 0.25f);
     }
 }
@@ -124,13 +128,19 @@ TEST(Guide, EndsOfTheUnitCube) {
         for (const float number : start.numbers) EXPECT_TRUE(number >= 0 && number < 1) << number;
 }
 
-GuideTree learned(const Use& use, uint count = 1u << 15, const Axes& axes = allAxes) { return guideTree(judged(uniformStarts(count, 3), use), axes); }
+GuideTree learned(const Use& use, uint count = 1u << 15, const Axes& axes = allAxes) {
+    return guideTree(judged(uniformStarts(count, 3), use), axes);
+}
 
 TEST(Guide, LearnsABox) {
-    const GuideTree tree = learned([](const PrimarySample& s) { return s.numbers[4] >= 0.25f && s.numbers[4] < 0.5f && s.numbers[6] >= 0.5f ? 1.0f : 0.0f; });
+    const GuideTree tree = learned([](const PrimarySample& s) {
+        return s.numbers[4] >= 0.25f && s.numbers[4] < 0.5f && s.numbers[6] >= 0.5f ? 1.0f : 0.0f;
+    });
     EXPECT_NEAR(tree.gain, 8, 1);
     // Halves of a box in the middle are alike: the first cuts along either axis gain nothing.
-    const GuideTree middle = learned([](const PrimarySample& s) { return std::abs(s.numbers[4] - 0.5f) < 0.25f && std::abs(s.numbers[5] - 0.5f) < 0.25f ? 1.0f : 0.0f; });
+    const GuideTree middle = learned([](const PrimarySample& s) {
+        return std::abs(s.numbers[4] - 0.5f) < 0.25f && std::abs(s.numbers[5] - 0.5f) < 0.25f ? 1.0f : 0.0f;
+    });
     EXPECT_NEAR(middle.gain, 4, 0.6);
 }
 
@@ -161,7 +171,8 @@ TEST(Guide, CheapPhotonsAreMore) {
     EXPECT_NEAR(tree.nodes[0].lower, 0.25, 1e-3);
     EXPECT_NEAR(tree.gain, 1 * 15 / ((std::sqrt(27) + std::sqrt(3)) / 2 * (std::sqrt(27) + std::sqrt(3)) / 2), 1e-2);
 
-    std::vector<PrimarySample> half = judged(uniformStarts(1u << 15, 4), [&](const PrimarySample& s) { return start(s) ? 1.0f : 0.0f; });
+    std::vector<PrimarySample> half =
+        judged(uniformStarts(1u << 15, 4), [&](const PrimarySample& s) { return start(s) ? 1.0f : 0.0f; });
     const double dear = guideTree(half, allAxes).gain;
     for (PrimarySample& s : half) s.stored = start(s);
     const GuideTree cheap = guideTree(half, allAxes);
@@ -190,7 +201,9 @@ TEST(Guide, LearnsFromGuidedPhotons) {
 
 // One useful photon of two thousand: rounds find what it has in common with others.
 TEST(Guide, RareOnesAreFoundInRounds) {
-    const Use use = [](const PrimarySample& s) { return s.numbers[4] < 1 / 64.0f && s.numbers[5] < 1 / 32.0f ? 1.0f : 0.0f; };
+    const Use use = [](const PrimarySample& s) {
+        return s.numbers[4] < 1 / 64.0f && s.numbers[5] < 1 / 32.0f ? 1.0f : 0.0f;
+    };
     std::vector<PrimarySample> all = judged(uniformStarts(1u << 15, 5), use);
     GuideTree tree = guideTree(all, allAxes);
     for (uint round = 0; round < 2; round++) {
@@ -226,7 +239,8 @@ TEST(Marks, WhatTheEyeSeesIsMarked) {
     const Camera camera = pinholeCamera(scene.view, settings.size);
     std::vector<Photon> photons;
     for (uint i = 0; i < 20'000; i++) {
-        const vec3 direction = camera.forward + random.between(-1, 1) * camera.right + random.between(-1, 1) * camera.up;
+        const vec3 direction =
+            camera.forward + random.between(-1, 1) * camera.right + random.between(-1, 1) * camera.up;
         const vec3 place = camera.origin - direction * (camera.origin.y / direction.y);
         photons.push_back({i % 2 ? place + vec3(2, 0, 1) : place});
     }
@@ -234,7 +248,9 @@ TEST(Marks, WhatTheEyeSeesIsMarked) {
     const Buffer<uint> marked(testGpu(), "marked", photons.size());
     const Kernel<IsMarkedArgs> kernel(testGpu(), "is_marked");
     Recording recording(testGpu());
-    recording.run(kernel, photons.size(), {asked, places.marks.caustic.bits, marked, static_cast<uint>(photons.size()), places.marks.caustic.cellWidth});
+    recording.run(
+        kernel, photons.size(),
+        {asked, places.marks.caustic.bits, marked, static_cast<uint>(photons.size()), places.marks.caustic.cellWidth});
     recording.submit();
     uint seen = 0, unseen = 0;
     for (uint i = 0; const uint is : marked.download()) (i++ % 2 ? unseen : seen) += is;
@@ -263,7 +279,8 @@ Spread spreadOf(const Scene& scene, const Settings& given, uint layer) {
         }
     }
     Spread spread{estimate(means)};
-    for (std::size_t i = 0; i < sums.size(); i++) spread.variance += (squares[i] - sums[i] * sums[i] / seeds) / (seeds - 1);
+    for (std::size_t i = 0; i < sums.size(); i++)
+        spread.variance += (squares[i] - sums[i] * sums[i] / seeds) / (seeds - 1);
     return spread;
 }
 
@@ -292,7 +309,10 @@ Scene rooms() {
         wall({0, 0, 2}, {2, 0, 0}, {0, 2, 0});
         wall({0, 0, 0}, {0, 2, 0}, {0, 0, 2});
         wall({2, 0, 0}, {0, 2, 0}, {0, 0, 2});
-        shapes.push_back({{"type", "rectangle"}, {"corner", {x + 0.8, 1.99, 0.8}}, {"edges", {{0.4, 0, 0}, {0, 0, 0.4}}}, {"emission", 10}});
+        shapes.push_back({{"type", "rectangle"},
+                          {"corner", {x + 0.8, 1.99, 0.8}},
+                          {"edges", {{0.4, 0, 0}, {0, 0, 0.4}}},
+                          {"emission", 10}});
     }
     return loadJson({{"camera", {{"origin", {1, 1, 1.9}}, {"target", {1, 0.8, 0}}, {"fieldOfView", 60}}},
                      {"materials", {{"grey", {{"type", "diffuse"}, {"albedo", 0.6}}}}},

@@ -99,7 +99,8 @@ VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t coun
     return next<PFN_vkWaitForFences>("vkWaitForFences")(device, count, fences, all, timeout);
 }
 
-/// The audit's arguments are an address and three words, the last the trips of its loops: more than any other kernel has there.
+/// The audit's arguments are an address and three words, the last the trips of its loops: more than any other kernel
+/// has there.
 VKAPI_ATTR void VKAPI_CALL cmdPushConstants(VkCommandBuffer commands, VkPipelineLayout layout,
                                             VkShaderStageFlags stages, std::uint32_t offset, std::uint32_t size,
                                             const void* values) {

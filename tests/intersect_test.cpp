@@ -1,7 +1,7 @@
 /// Rays against single triangles, spheres and boxes, compared with double precision.
-#include "scene/box.h"
 #include "judge.h"
 #include "map.h"
+#include "scene/box.h"
 #include <gtest/gtest.h>
 
 namespace vkpm {
@@ -28,7 +28,8 @@ TEST(Intersect, TrianglesAgreeWithDoublePrecision) {
     Random random(1);
     std::vector<TriangleCase> xs;
     for (int i = 0; i < 200'000; i++) {
-        const TriangleCase x{random.cube(1), random.cube(1) * std::exp2(random.between(-10, 10)), random.cube(1), random.cube(1), random.cube(1)};
+        const TriangleCase x{random.cube(1), random.cube(1) * std::exp2(random.between(-10, 10)), random.cube(1),
+                             random.cube(1), random.cube(1)};
         xs.push_back(x);
     }
     const auto ys = map<vec3>("intersect_triangle", xs);
@@ -54,7 +55,8 @@ TEST(Intersect, DegenerateTrianglesAreMissed) {
     const vec3 a{0, 0, 0}, b{1, 0, 0};
     std::vector<TriangleCase> xs;
     for (const vec3 c : {a, b, vec3{0.5f, 0, 0}, vec3{2, 0, 0}})
-        for (const vec3 d : {vec3{0, 0, -1}, vec3{1, 0, -1}, vec3{0, -1, -1}}) xs.push_back({vec3{0.25f, 0, 1}, d, a, b, c});
+        for (const vec3 d : {vec3{0, 0, -1}, vec3{1, 0, -1}, vec3{0, -1, -1}})
+            xs.push_back({vec3{0.25f, 0, 1}, d, a, b, c});
     // And a ray within the triangle's plane.
     xs.push_back({vec3{-1, 0.25f, 0}, vec3{1, 0, 0}, a, b, vec3{0, 1, 0}});
     for (const vec3 y : map<vec3>("intersect_triangle", xs)) EXPECT_EQ(y.x, -1);
@@ -65,7 +67,8 @@ SphereCase passing(Random& random, double pass, double distance) {
     const dvec3 center = random.cube(10), direction = glm::normalize(dvec3(random.direction()));
     const double radius = std::exp2(random.between(-6, 6));
     const dvec3 across = glm::normalize(glm::cross(direction, dvec3(random.direction())));
-    return {vec3(center + radius * (pass * across - distance * direction)), vec3(direction), vec3(center), float(radius)};
+    return {vec3(center + radius * (pass * across - distance * direction)), vec3(direction), vec3(center),
+            float(radius)};
 }
 
 std::vector<SphereCase> withPoles(std::vector<SphereCase> xs) {
@@ -75,7 +78,8 @@ std::vector<SphereCase> withPoles(std::vector<SphereCase> xs) {
 
 // The true distance of the line of a ray from the centre, in radii.
 double passOf(const SphereCase& x) {
-    return glm::length(glm::cross(dvec3(x.origin) - dvec3(x.center), dvec3(x.direction))) / glm::length(dvec3(x.direction)) / double{x.radius};
+    return glm::length(glm::cross(dvec3(x.origin) - dvec3(x.center), dvec3(x.direction))) /
+           glm::length(dvec3(x.direction)) / double{x.radius};
 }
 
 double radialError(const SphereCase& x, double t) {
@@ -89,11 +93,18 @@ TEST(Intersect, SpheresNearTheTangent) {
     for (int i = 0; i < 100'000; i++) xs.push_back(passing(random, 1 + random.between(-1e-3f, 1e-3f), 10));
     const auto ys = map<float>("intersect_sphere", withPoles(xs));
     for (std::size_t i = 0; i < xs.size(); i++) {
-        // The line's distance is known to about ten roundings of the distance of ten radii and of the centre's coordinates.
+        // The line's distance is known to about ten roundings of the distance of ten radii and of the centre's
+        // coordinates.
         const double pass = passOf(xs[i]), slack = 5e-6 * (1 + 1 / double{xs[i].radius});
-        if (pass > 1 + slack) { ASSERT_EQ(ys[i], -1) << pass; }
-        if (pass < 1 - slack) { ASSERT_GT(ys[i], 0) << pass; }
-        if (ys[i] > 0) { ASSERT_LT(radialError(xs[i], ys[i]), 2 * slack) << pass; }
+        if (pass > 1 + slack) {
+            ASSERT_EQ(ys[i], -1) << pass;
+        }
+        if (pass < 1 - slack) {
+            ASSERT_GT(ys[i], 0) << pass;
+        }
+        if (ys[i] > 0) {
+            ASSERT_LT(radialError(xs[i], ys[i]), 2 * slack) << pass;
+        }
     }
 }
 
@@ -110,7 +121,9 @@ TEST(Intersect, SpheresFarAway) {
         const auto ys = map<float>("intersect_sphere", withPoles(xs));
         for (std::size_t i = 0; i < xs.size(); i++) {
             // Directions are rounded too: at 1e6 radii by a tenth of a radius, and t by as much.
-            const double pass = passOf(xs[i]), expected = glm::length(dvec3(xs[i].center) - dvec3(xs[i].origin)) - std::sqrt(std::max(0.0, 1 - pass * pass)) * double{xs[i].radius};
+            const double pass = passOf(xs[i]),
+                         expected = glm::length(dvec3(xs[i].center) - dvec3(xs[i].origin)) -
+                                    std::sqrt(std::max(0.0, 1 - pass * pass)) * double{xs[i].radius};
             ASSERT_GT(ys[i], 0) << pass;
             ASSERT_NEAR(ys[i] / expected, 1, 1e-6 + 1e-2 / distance) << pass;
         }
@@ -128,7 +141,8 @@ TEST(Intersect, SpheresFromInside) {
     for (std::size_t i = 0; i < xs.size(); i++) {
         ASSERT_GT(ys[i], 0);
         ASSERT_LT(radialError(xs[i], ys[i]), 2e-6);
-        ASSERT_GT(glm::dot(xs[i].origin + ys[i] * xs[i].direction - xs[i].center, xs[i].direction), 0) << "not the far side";
+        ASSERT_GT(glm::dot(xs[i].origin + ys[i] * xs[i].direction - xs[i].center, xs[i].direction), 0)
+            << "not the far side";
     }
 }
 
@@ -138,13 +152,15 @@ TEST(Intersect, SpheresLargerThanTheRoom) {
     for (const double radius : {1e2, 1e4, 1e6, 1e7}) {
         std::vector<SphereCase> xs;
         for (int i = 0; i < 20'000; i++) {
-            const vec3 origin = random.cube(1) + vec3{0, 1.1f, 0}, direction{random.between(-1, 1), -1, random.between(-1, 1)};
+            const vec3 origin = random.cube(1) + vec3{0, 1.1f, 0},
+                       direction{random.between(-1, 1), -1, random.between(-1, 1)};
             xs.push_back({origin, direction, vec3(dvec3(0, -radius, 0)), float(radius)});
         }
         const auto ys = map<float>("intersect_sphere", withPoles(xs));
         for (std::size_t i = 0; i < xs.size(); i++) {
             const dvec3 f = dvec3(xs[i].origin) + dvec3(0, radius, 0), d(xs[i].direction);
-            const double a = glm::dot(d, d), b = -glm::dot(f, d), c = glm::dot(dvec3(xs[i].origin), dvec3(xs[i].origin)) + 2 * radius * double{xs[i].origin.y};
+            const double a = glm::dot(d, d), b = -glm::dot(f, d),
+                         c = glm::dot(dvec3(xs[i].origin), dvec3(xs[i].origin)) + 2 * radius * double{xs[i].origin.y};
             const double expected = c / (b + std::sqrt(b * b - a * c));
             ASSERT_NEAR(ys[i], expected, 3e-6 * std::max(1.0, expected)) << radius;
         }
@@ -164,7 +180,8 @@ TEST(Intersect, SpheresFromTheirSurface) {
         const double chord = -glm::dot(dvec3(xs[i].origin), dvec3(xs[i].direction)) * 2;
         const bool atOnce = ys[i] == -1 || ys[i] < 1e-5 + 1e-6 / std::abs(chord);
         // A chord of length c is off by the rounding of the square of the radius over c.
-        ASSERT_TRUE((atOnce && (chord < 0.1 || ys[i] > 0)) || std::abs(ys[i] - chord) < 1e-5 + 1e-6 / chord) << ys[i] << " " << chord;
+        ASSERT_TRUE((atOnce && (chord < 0.1 || ys[i] > 0)) || std::abs(ys[i] - chord) < 1e-5 + 1e-6 / chord)
+            << ys[i] << " " << chord;
     }
 }
 
@@ -180,8 +197,8 @@ BoxCase around(vec3 origin, vec3 direction, dvec3 point, vec3 size) {
     return x;
 }
 
-// Rays with components of zero of both signs, and boxes as flat as they can be, but where a ray would run within the flat box:
-// that ray hits no triangle.
+// Rays with components of zero of both signs, and boxes as flat as they can be, but where a ray would run within the
+// flat box: that ray hits no triangle.
 TEST(Intersect, BoxesAreNeverMissedByRaysThroughTheirPoints) {
     Random random(6);
     std::vector<BoxCase> xs;
@@ -208,7 +225,8 @@ TEST(Intersect, BoxesBesideAndBehindAreMissed) {
     Random random(7);
     std::vector<BoxCase> xs;
     for (int i = 0; i < 100'000; i++) {
-        const vec3 origin = random.cube(1), direction = random.direction(), size = vec3(0.001f) + (random.cube(0.1f) + vec3(0.1f));
+        const vec3 origin = random.cube(1), direction = random.direction(),
+                   size = vec3(0.001f) + (random.cube(0.1f) + vec3(0.1f));
         const vec3 across = glm::normalize(glm::cross(direction, random.direction()));
         const float distance = glm::length(size) * 1.01f;
         xs.push_back(around(origin, direction, origin - direction * distance, size));
@@ -219,9 +237,12 @@ TEST(Intersect, BoxesBesideAndBehindAreMissed) {
 
 TEST(Intersect, BoxesAreEnteredWhereTheyBegin) {
     const vec3 low{1, -1, -1}, high{2, 1, 1};
-    const auto ys = map<float>("intersect_box", std::vector<BoxCase>{{{0, 0, 0}, {1, 0, 0}, low, high}, {{0, 0, 0}, {0.5f, -0.0f, 0}, low, high},
-                                                                     {{1.5f, 0, 0}, {1, 0, 0}, low, high}, {{3, 0, 0}, {-1, 0, 0}, low, high},
-                                                                     {{3, 0, 0}, {1, 0, 0}, low, high}, {{0, 1.5f, 0}, {1, 0, 0}, low, high}});
+    const auto ys = map<float>("intersect_box", std::vector<BoxCase>{{{0, 0, 0}, {1, 0, 0}, low, high},
+                                                                     {{0, 0, 0}, {0.5f, -0.0f, 0}, low, high},
+                                                                     {{1.5f, 0, 0}, {1, 0, 0}, low, high},
+                                                                     {{3, 0, 0}, {-1, 0, 0}, low, high},
+                                                                     {{3, 0, 0}, {1, 0, 0}, low, high},
+                                                                     {{0, 1.5f, 0}, {1, 0, 0}, low, high}});
     const float missed = std::numeric_limits<float>::max();
     EXPECT_EQ(ys, (std::vector<float>{1, 2, 0, 1, missed, missed}));
 }

@@ -51,7 +51,8 @@ public:
         counts[static_cast<std::size_t>(i)]++;
         total++;
     }
-    /// How many standard deviations chi-square lies above its mean (Wilson & Hilferty 1931); infinite if a point was outside.
+    /// How many standard deviations chi-square lies above its mean (Wilson & Hilferty 1931); infinite if a point was
+    /// outside.
     double deviation() const {
         const double expected = total / double(counts.size()), freedom = double(counts.size()) - 1;
         double sum = 0;
@@ -61,7 +62,9 @@ public:
     }
 
 private:
-    static int bin(double x, int bins) { return std::isnan(x) ? 0 : std::min(std::max(static_cast<int>(x * bins), 0), bins - 1); }
+    static int bin(double x, int bins) {
+        return std::isnan(x) ? 0 : std::min(std::max(static_cast<int>(x * bins), 0), bins - 1);
+    }
 
     int width, height;
     std::vector<double> counts;

@@ -8,8 +8,9 @@
 namespace vkpm {
 namespace {
 
-const std::map<uint, const char*> layerNames{{LAYER_EMISSION, "emission"}, {LAYER_DIRECT, "direct"}, {LAYER_SPECULAR, "specular"},
-                                             {LAYER_CAUSTIC, "caustic"}, {LAYER_INDIRECT, "indirect"}, {LAYER_COUNT, "beauty"}};
+const std::map<uint, const char*> layerNames{{LAYER_EMISSION, "emission"}, {LAYER_DIRECT, "direct"},
+                                             {LAYER_SPECULAR, "specular"}, {LAYER_CAUSTIC, "caustic"},
+                                             {LAYER_INDIRECT, "indirect"}, {LAYER_COUNT, "beauty"}};
 
 const uint repetitions = 8;
 
@@ -46,11 +47,13 @@ struct Case {
     uint pathPasses;
     uint photonPasses;
     double bias; // of an image mean that the radii may cause, relative
-    double allowed = 0.04, allowedSpecular = 0.3; // of means that noise may hide, of diffuse light and of what mirrors and glass bring
+    double allowed = 0.04,
+           allowedSpecular = 0.3; // of means that noise may hide, of diffuse light and of what mirrors and glass bring
 };
 
-// The bias of discs at the edges of walls: a disc of radius r loses 0.21 r per length of edge, which for the walls of the box
-// (side 2) is 0.42 r, 0.25 % of the indirect light at the radii used here; `bias` is that much. The rest is noise: 4 sigma.
+// The bias of discs at the edges of walls: a disc of radius r loses 0.21 r per length of edge, which for the walls of
+// the box (side 2) is 0.42 r, 0.25 % of the indirect light at the radii used here; `bias` is that much. The rest is
+// noise: 4 sigma.
 void expectAgreement(const Case& c) {
     const Scene scene = shippedScene(c.scene);
     Settings settings = scene.settings;
@@ -66,7 +69,8 @@ void expectAgreement(const Case& c) {
         const Estimate a = photon.at(layer);
         const Estimate b = path.at(layer);
         const double allowed = 4 * std::hypot(a.error, b.error) + c.bias * b.mean;
-        std::printf("%-12s %-9s photon %.6f +- %.6f  path %.6f +- %.6f  z %+.2f\n", c.scene, name, a.mean, a.error, b.mean, b.error, zScore(a, b));
+        std::printf("%-12s %-9s photon %.6f +- %.6f  path %.6f +- %.6f  z %+.2f\n", c.scene, name, a.mean, a.error,
+                    b.mean, b.error, zScore(a, b));
         EXPECT_NEAR(a.mean, b.mean, allowed) << c.scene << " " << name;
         // light_tracing_test is sharper on caustics, of which the path tracer finds few.
         const double sharp = layer == LAYER_CAUSTIC || layer == LAYER_SPECULAR ? c.allowedSpecular : c.allowed;

@@ -26,7 +26,8 @@ std::vector<LightValues> sampleEmissionPoint(const Light& light, const std::vect
     return map<LightValues>("sample_light", us, {}, scene.context());
 }
 
-// How often each light is chosen by the numbers (i + 0.5) / count: exactly its probability, to one at each end of its part.
+// How often each light is chosen by the numbers (i + 0.5) / count: exactly its probability, to one at each end of its
+// part.
 void expectFrequencies(const std::vector<float>& cdf, uint hasManyLights) {
     const uint count = 1u << 20;
     std::vector<float> us;
@@ -70,7 +71,8 @@ TEST(Light, RectanglesAreSampledUniformly) {
     const dvec3 u = light.u, v = light.v, n = glm::normalize(glm::cross(u, v));
     for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 1))) {
         const dvec3 d = dvec3(y.position) - dvec3(light.a), uv = glm::cross(u, v);
-        histogram.add(glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv));
+        histogram.add(glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv),
+                      glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv));
         ASSERT_NEAR(glm::dot(d, n), 0, 1e-6);
         ASSERT_LT(glm::length(dvec3(y.normal) - n), 1e-6);
         for (int i = 0; i < 3; i++) ASSERT_GE(y.magnitude[i], std::abs(y.position[i]));
@@ -87,7 +89,8 @@ TEST(Light, TrianglesAreSampledUniformly) {
     const dvec3 u = light.u, v = light.v, uv = glm::cross(u, v);
     for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 2))) {
         const dvec3 d = dvec3(y.position) - dvec3(light.a);
-        const double x = glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv), z = glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv);
+        const double x = glm::dot(glm::cross(d, v), uv) / glm::dot(uv, uv),
+                     z = glm::dot(glm::cross(u, d), uv) / glm::dot(uv, uv);
         // x uniform in area: P(x < t) = 1 - (1 - t)^2; given x, z is uniform up to 1 - x.
         histogram.add(1 - (1 - x) * (1 - x), x < 1 - 1e-3 ? z / (1 - x) : 0.5);
         ASSERT_LT(glm::length(dvec3(y.normal) - glm::normalize(uv)), 1e-6);
@@ -97,7 +100,8 @@ TEST(Light, TrianglesAreSampledUniformly) {
 }
 
 TEST(Light, SpheresAreSampledUniformly) {
-    const Light light{.a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi)};
+    const Light light{
+        .a = {1, -2, 3}, .u = {0.5f, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = float(pi)};
     Histogram histogram(16, 16);
     for (const LightValues& y : sampleEmissionPoint(light, unitSquare(1 << 18, 3))) {
         const dvec3 n = (dvec3(y.position) - dvec3(light.a)) * 2.0;
@@ -126,12 +130,14 @@ TEST(Light, SpheresAreSeenUniformlyByAngle) {
     for (const float distance : {0.51f, 1.0f, 30.0f}) {
         const dvec3 axis = glm::normalize(dvec3{1, 2, -0.5});
         const vec3 origin = vec3(dvec3(center) - double{distance} * axis);
-        const double radius = 0.5, away = glm::length(dvec3(center) - dvec3(origin)), sine2 = radius * radius / (away * away);
+        const double radius = 0.5, away = glm::length(dvec3(center) - dvec3(origin)),
+                     sine2 = radius * radius / (away * away);
         const double height = sine2 / (1 + std::sqrt(1 - sine2));
         const dvec3 side = glm::normalize(glm::cross(axis, dvec3{0, 0, 1})), up = glm::cross(side, axis);
         Histogram histogram(16, 16);
         for (const SeenValues& y : seenPoints(sphereLight(center, 0.5f), origin, 1 << 18)) {
-            const dvec3 n = (dvec3(y.position) - dvec3(center)) / radius, w = glm::normalize(dvec3(y.position) - dvec3(origin));
+            const dvec3 n = (dvec3(y.position) - dvec3(center)) / radius,
+                        w = glm::normalize(dvec3(y.position) - dvec3(origin));
             ASSERT_NEAR(glm::length(n), 1, 1e-5);
             ASSERT_LT(glm::length(n - dvec3(y.normal)), 1e-5);
             ASSERT_LT(glm::dot(w, n), 2e-3);
@@ -155,8 +161,8 @@ struct FlatLight {
         return l;
     }
 
-    // The solid angle of the rectangle between the corner and (x + s width, y + t height), as seen from the origin, less what does
-    // not depend on both.
+    // The solid angle of the rectangle between the corner and (x + s width, y + t height), as seen from the origin,
+    // less what does not depend on both.
     double toCorner(double s, double t) const {
         const double cx = x + s * width, cy = y + t * height;
         return std::atan2(cx * cy, z * std::sqrt(cx * cx + cy * cy + z * z));
@@ -182,47 +188,62 @@ struct FlatLight {
     }
 };
 
-// Seen from before the middle, from close to it, to an edge, to a corner and to the plane beside it, from a large side, and from as
-// far as points are chosen by angle: each cell of the light gets as many points as its solid angle says.
+// Seen from before the middle, from close to it, to an edge, to a corner and to the plane beside it, from a large side,
+// and from as far as points are chosen by angle: each cell of the light gets as many points as its solid angle says.
 TEST(Light, FlatLightsAreSeenUniformlyByAngle) {
     const int side = 8;
     const uint count = 1 << 18;
     for (const uint kind : {LIGHT_RECTANGLE, LIGHT_TRIANGLE})
-        for (FlatLight flat : {FlatLight{-0.5, -0.5, 1, 1, 1}, {-0.3, -0.4, 0.01, 1, 1}, {-0.3, -0.4, 1e-5, 1, 1}, {-0.5, 0.001, 0.01, 1, 1}, {0.001, 0.002, 0.005, 1, 1},
-                               {0.5, -0.5, 0.02, 1, 2}, {-0.01, -10, 0.1, 0.02, 20}, {-0.5, 0.5, 2, 1, 1}}) {
+        for (FlatLight flat : {FlatLight{-0.5, -0.5, 1, 1, 1},
+                               {-0.3, -0.4, 0.01, 1, 1},
+                               {-0.3, -0.4, 1e-5, 1, 1},
+                               {-0.5, 0.001, 0.01, 1, 1},
+                               {0.001, 0.002, 0.005, 1, 1},
+                               {0.5, -0.5, 0.02, 1, 2},
+                               {-0.01, -10, 0.1, 0.02, 20},
+                               {-0.5, 0.5, 2, 1, 1}}) {
             flat.kind = kind;
             const Light light = flat.light();
             const double whole = flat.solidAngle();
             std::vector<double> found(side * side);
             for (const SeenValues& y : seenPoints(light, vec3{0}, count)) {
                 ASSERT_NEAR(y.solidAngle, whole, 1e-6 * whole + 4 * flat.rounding()) << kind << " z " << flat.z;
-                const double s = (double{y.position.x} - flat.x) / flat.width, t = (double{y.position.y} - flat.y) / flat.height;
-                ASSERT_TRUE(s >= -1e-6 && t >= -1e-6 && (kind == LIGHT_TRIANGLE ? s + t : std::max(s, t)) <= 1 + 1e-6) << s << " " << t;
-                found[std::min(int(std::max(s, 0.0) * side), side - 1) + side * std::min(int(std::max(t, 0.0) * side), side - 1)]++;
+                const double s = (double{y.position.x} - flat.x) / flat.width,
+                             t = (double{y.position.y} - flat.y) / flat.height;
+                ASSERT_TRUE(s >= -1e-6 && t >= -1e-6 && (kind == LIGHT_TRIANGLE ? s + t : std::max(s, t)) <= 1 + 1e-6)
+                    << s << " " << t;
+                found[std::min(int(std::max(s, 0.0) * side), side - 1) +
+                      side * std::min(int(std::max(t, 0.0) * side), side - 1)]++;
             }
             for (int i = 0; i < side; i++)
                 for (int j = 0; j < (kind == LIGHT_TRIANGLE ? side - 1 - i : side); j++) {
                     const double expected = count * flat.cell(i, j, side) / whole;
-                    EXPECT_NEAR(found[i + side * j], expected, 5 * std::sqrt(expected) + 2) << kind << " z " << flat.z << " cell " << i << ", " << j;
+                    EXPECT_NEAR(found[i + side * j], expected, 5 * std::sqrt(expected) + 2)
+                        << kind << " z " << flat.z << " cell " << i << ", " << j;
                 }
         }
 }
 
-// In the plane of a light and at its corners, where directions and solid angles end, points stay on it and nothing is infinite.
+// In the plane of a light and at its corners, where directions and solid angles end, points stay on it and nothing is
+// infinite.
 TEST(Light, FlatLightsInTheirPlane) {
     for (const uint kind : {LIGHT_RECTANGLE, LIGHT_TRIANGLE})
-        for (const vec3 origin : {vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{1, 1, 0}, vec3{0.5f, 0.5f, 0}, vec3{0.5f, 0, 0}, vec3{2, 0.25f, 0}, vec3{0, 0, 1e-20f}}) {
+        for (const vec3 origin : {vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{1, 1, 0}, vec3{0.5f, 0.5f, 0},
+                                  vec3{0.5f, 0, 0}, vec3{2, 0.25f, 0}, vec3{0, 0, 1e-20f}}) {
             Light light = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
             light.kind = kind;
             for (const SeenValues& y : seenPoints(light, origin, 1 << 12)) {
-                ASSERT_TRUE(std::isfinite(y.solidAngle) && y.solidAngle >= 0 && y.solidAngle < 6.2832) << kind << " " << origin.x;
-                ASSERT_TRUE(glm::all(glm::greaterThanEqual(y.position, vec3(0))) && glm::all(glm::lessThanEqual(y.position, vec3(1))));
+                ASSERT_TRUE(std::isfinite(y.solidAngle) && y.solidAngle >= 0 && y.solidAngle < 6.2832)
+                    << kind << " " << origin.x;
+                ASSERT_TRUE(glm::all(glm::greaterThanEqual(y.position, vec3(0))) &&
+                            glm::all(glm::lessThanEqual(y.position, vec3(1))));
             }
         }
 }
 
-// The irradiance below a light, in closed form: of a sphere pi sin^2 cos (its rim's and its middle's angles), of a unit square seen
-// from a distance of one under its centre 0.7522746885; from within a sphere everything is seen, a solid angle of 4 pi.
+// The irradiance below a light, in closed form: of a sphere pi sin^2 cos (its rim's and its middle's angles), of a unit
+// square seen from a distance of one under its centre 0.7522746885; from within a sphere everything is seen, a solid
+// angle of 4 pi.
 TEST(Light, SeenPointsGiveTheIrradiance) {
     const auto irradiance = [](const Light& light, vec3 origin) {
         double sum = 0;
@@ -258,12 +279,14 @@ TEST(Light, EmitsOnTheSidesItShould) {
 }
 
 TEST(Light, Luminance) {
-    const auto ys = map<float>("luminance_of", std::vector<vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 4, 8}});
+    const auto ys =
+        map<float>("luminance_of", std::vector<vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 4, 8}});
     const std::vector<float> expected{0.2126f, 0.7152f, 0.0722f, 1, 3.8636f};
     for (std::size_t i = 0; i < ys.size(); i++) EXPECT_NEAR(ys[i], expected[i], 1e-6);
 }
 
-// The form factor of a point under the centre of a 1 x 1 light, by the midpoint rule over `side` x `side` light samples.
+// The form factor of a point under the centre of a 1 x 1 light, by the midpoint rule over `side` x `side` light
+// samples.
 double formFactor(double height, uint side) {
     const Light light = rectangle({-0.5f, 0.5f, 0}, {1, 0, 0}, {0, -1, 0});
     const TestScene scene = sceneWith({light});

@@ -39,8 +39,8 @@ std::vector<Estimate> renderSeeds(const Scene& scene, Settings settings, uint pa
     return estimates;
 }
 
-// A sample of the path tracer hits a light or is black, so that its variance is at most its mean times the brightest light (Bhatia &
-// Davis 2000). Where hits are few their own spread would say less; one hit more or less does not count.
+// A sample of the path tracer hits a light or is black, so that its variance is at most its mean times the brightest
+// light (Bhatia & Davis 2000). Where hits are few their own spread would say less; one hit more or less does not count.
 void expectAgreement(const char* name, const Scene& scene, uint pathPasses, uint lightPasses) {
     Settings settings = scene.settings;
     settings.size = {48, 48};
@@ -52,7 +52,8 @@ void expectAgreement(const char* name, const Scene& scene, uint pathPasses, uint
     const std::vector<Estimate> path = renderSeeds(scene, settings, pathPasses);
 
     float brightest = 0;
-    for (const Light& lamp : scene.lights) brightest = std::max({brightest, lamp.radiance.x, lamp.radiance.y, lamp.radiance.z});
+    for (const Light& lamp : scene.lights)
+        brightest = std::max({brightest, lamp.radiance.x, lamp.radiance.y, lamp.radiance.z});
     double farthest = 0;
     for (std::size_t i = 0; i < light.size(); i++) {
         const double samples = 48.0 * 48 / (i < columns * rows ? columns * rows : 1) * pathPasses * repetitions;
@@ -62,7 +63,8 @@ void expectAgreement(const char* name, const Scene& scene, uint pathPasses, uint
         if (error > 0) farthest = std::max(farthest, std::abs(light[i].mean - path[i].mean) / error);
     }
     const Estimate a = light.back(), b = path.back();
-    std::printf("%-12s light %.6f +- %.6f  path %.6f +- %.6f  z %+.2f, of regions at most %.2f\n", name, a.mean, a.error, b.mean, b.error, zScore(a, b), farthest);
+    std::printf("%-12s light %.6f +- %.6f  path %.6f +- %.6f  z %+.2f, of regions at most %.2f\n", name, a.mean,
+                a.error, b.mean, b.error, zScore(a, b), farthest);
     EXPECT_GT(a.mean, 15 * a.error);
 }
 
@@ -73,24 +75,44 @@ TEST(LightTracing, PoolAgreesWithThePathTracer) { expectAgreement("pool", shippe
 const char* const octahedron = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
                                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
 
-// Under a mirror and seen at a wide angle, in different colours: an octahedron with the shading normals of a ball, a ball, and a
-// sheet whose back alone is lit, behind which there is more floor.
+// Under a mirror and seen at a wide angle, in different colours: an octahedron with the shading normals of a ball, a
+// ball, and a sheet whose back alone is lit, behind which there is more floor.
 json stillLife() {
     const auto diffuse = [](json albedo) { return json{{"type", "diffuse"}, {"albedo", albedo}}; };
-    return {{"camera", {{"origin", {0.1, 0.5, 1.2}}, {"target", {0, 0.2, 0}}, {"up", {0.1, 1, 0}}, {"fieldOfView", 95}}},
-            {"materials", {{"white", diffuse(0.8)}, {"red", diffuse({0.7, 0.2, 0.1})}, {"green", diffuse({0.2, 0.6, 0.3})}, {"blue", diffuse({0.1, 0.2, 0.9})},
-                           {"mirror", {{"type", "mirror"}, {"reflectance", {0.9, 0.8, 0.7}}}}}},
-            {"shapes",
-             {{{"type", "rectangle"}, {"corner", {-3, 0, 3}}, {"edges", {{6, 0, 0}, {0, 0, -6}}}, {"material", "white"}},
-              {{"type", "rectangle"}, {"corner", {-1, 1.2, -1}}, {"edges", {{2, 0, 0}, {0, 0.1, 2}}}, {"material", "mirror"}},
-              {{"type", "mesh"}, {"file", writeScene(octahedron, "octahedron.obj").string()}, {"smooth", true}, {"material", "red"}, {"transform", {{{"scale", 0.3}}, {{"translate", {-0.4, 0.35, 0.2}}}}}},
-              {{"type", "sphere"}, {"center", {0.5, 0.25, 0}}, {"radius", 0.25}, {"material", "green"}},
-              {{"type", "rectangle"}, {"corner", {0, 0.1, 0.6}}, {"edges", {{0.5, 0, 0}, {0, 0.3, 0.2}}}, {"material", "blue"}},
-              {{"type", "rectangle"}, {"corner", {-0.3, 0.6, -0.5}}, {"edges", {{0, 0, 0.3}, {0.3, 0, 0}}}, {"emission", {20, 18, 15}}},
-              {{"type", "sphere"}, {"center", {0.8, 0.9, 0.4}}, {"radius", 0.1}, {"emission", {5, 6, 7}}}}}};
+    return {
+        {"camera", {{"origin", {0.1, 0.5, 1.2}}, {"target", {0, 0.2, 0}}, {"up", {0.1, 1, 0}}, {"fieldOfView", 95}}},
+        {"materials",
+         {{"white", diffuse(0.8)},
+          {"red", diffuse({0.7, 0.2, 0.1})},
+          {"green", diffuse({0.2, 0.6, 0.3})},
+          {"blue", diffuse({0.1, 0.2, 0.9})},
+          {"mirror", {{"type", "mirror"}, {"reflectance", {0.9, 0.8, 0.7}}}}}},
+        {"shapes",
+         {{{"type", "rectangle"}, {"corner", {-3, 0, 3}}, {"edges", {{6, 0, 0}, {0, 0, -6}}}, {"material", "white"}},
+          {{"type", "rectangle"},
+           {"corner", {-1, 1.2, -1}},
+           {"edges", {{2, 0, 0}, {0, 0.1, 2}}},
+           {"material", "mirror"}},
+          {{"type", "mesh"},
+           {"file", writeScene(octahedron, "octahedron.obj").string()},
+           {"smooth", true},
+           {"material", "red"},
+           {"transform", {{{"scale", 0.3}}, {{"translate", {-0.4, 0.35, 0.2}}}}}},
+          {{"type", "sphere"}, {"center", {0.5, 0.25, 0}}, {"radius", 0.25}, {"material", "green"}},
+          {{"type", "rectangle"},
+           {"corner", {0, 0.1, 0.6}},
+           {"edges", {{0.5, 0, 0}, {0, 0.3, 0.2}}},
+           {"material", "blue"}},
+          {{"type", "rectangle"},
+           {"corner", {-0.3, 0.6, -0.5}},
+           {"edges", {{0, 0, 0.3}, {0.3, 0, 0}}},
+           {"emission", {20, 18, 15}}},
+          {{"type", "sphere"}, {"center", {0.8, 0.9, 0.4}}, {"radius", 0.1}, {"emission", {5, 6, 7}}}}}};
 }
 
-TEST(LightTracing, SmoothAndHiddenSurfacesAgreeWithThePathTracer) { expectAgreement("still life", loadJson(stillLife()), 128, 8); }
+TEST(LightTracing, SmoothAndHiddenSurfacesAgreeWithThePathTracer) {
+    expectAgreement("still life", loadJson(stillLife()), 128, 8);
+}
 
 TEST(LightTracing, ShowsTheCausticLayerAndTheFirstSurfaceAlone) {
     const Scene scene = shippedScene("box");
@@ -102,7 +124,8 @@ TEST(LightTracing, ShowsTheCausticLayerAndTheFirstSurfaceAlone) {
     const Rendered light = renderPasses(scene, settings, 2);
     EXPECT_EQ(light.caustic.emitted, 2000u);
     EXPECT_EQ(light.global.emitted, 0u);
-    for (const uint layer : {LAYER_EMISSION, LAYER_DIRECT, LAYER_SPECULAR, LAYER_INDIRECT}) EXPECT_EQ(layerMean(light.pixels, layer), 0) << layer;
+    for (const uint layer : {LAYER_EMISSION, LAYER_DIRECT, LAYER_SPECULAR, LAYER_INDIRECT})
+        EXPECT_EQ(layerMean(light.pixels, layer), 0) << layer;
     EXPECT_GT(layerMean(light.pixels, LAYER_CAUSTIC), 0);
     for (std::size_t i = 0; i < photon.size(); i++) {
         EXPECT_EQ(light.pixels[i].mean.albedo, photon[i].mean.albedo);

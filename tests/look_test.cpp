@@ -74,8 +74,8 @@ TEST(Look, GuidesFollowTheView) {
     }
 }
 
-// The flag comes up after another number of submissions each time, until all passes go through. Then the renderer looks elsewhere,
-// or goes on with the pass that it left.
+// The flag comes up after another number of submissions each time, until all passes go through. Then the renderer looks
+// elsewhere, or goes on with the pass that it left.
 void expectAsIfNewAfterCancelled(const Scene& scene) {
     const uint passes = 8;
     uint left = 0, wentOn = 0;

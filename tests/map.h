@@ -26,7 +26,8 @@ std::vector<Out> map(const char* kernel, const std::vector<In>& xs, const Featur
     const Buffer<Out> output(gpu, "ys", xs.size());
     const Kernel<MapArgs> function(gpu, kernel, features);
     Recording recording(gpu);
-    recording.run(function, xs.size(), {{input.address}, {output.address}, context.scene, context.photons, static_cast<uint>(xs.size())});
+    recording.run(function, xs.size(),
+                  {{input.address}, {output.address}, context.scene, context.photons, static_cast<uint>(xs.size())});
     recording.submit();
     return output.download();
 }

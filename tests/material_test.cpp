@@ -29,9 +29,7 @@ float reflectance(double eta, double cosI, uint hasSchlick = 0) {
     return map<float>("fresnel_reflectance", std::vector{vec2{eta, cosI}}, fresnelFeatures(hasSchlick))[0];
 }
 
-double cosineOf(double degrees) {
-    return std::cos(degrees * pi / 180);
-}
+double cosineOf(double degrees) { return std::cos(degrees * pi / 180); }
 
 TEST(Fresnel, KnownValues) {
     EXPECT_NEAR(reflectance(1.5, 1), 0.04, 1e-7);
@@ -80,7 +78,8 @@ TEST(Fresnel, AgreesWithDoublePrecision) {
 
 TEST(Fresnel, SchlickDeviatesAsMuchAsItShould) {
     const auto xs = angles(1.5, 1 << 16);
-    const auto exact = map<float>("fresnel_reflectance", xs), approximate = map<float>("fresnel_reflectance", xs, fresnelFeatures(1));
+    const auto exact = map<float>("fresnel_reflectance", xs),
+               approximate = map<float>("fresnel_reflectance", xs, fresnelFeatures(1));
     double absolute = 0, relative = 0;
     for (std::size_t i = 0; i < xs.size(); i++) {
         absolute = std::max(absolute, std::abs(double{approximate[i]} - exact[i]));
@@ -106,9 +105,7 @@ TEST(Fresnel, IsTheSameFromBothSides) {
 const vec3 tint{0.9f, 0.8f, 0.7f};
 const Features smooth{}, flat{.hasSmoothNormals = 0};
 
-ScatterCase glass(float ior, vec3 n, vec3 d, float u) {
-    return {{MATERIAL_GLASS, tint, ior}, n, n, d, u};
-}
+ScatterCase glass(float ior, vec3 n, vec3 d, float u) { return {{MATERIAL_GLASS, tint, ior}, n, n, d, u}; }
 
 std::vector<ScatterValues> scatter(const std::vector<ScatterCase>& xs, const Features& features = flat) {
     return map<ScatterValues>("scatter_specular", xs, features);
@@ -119,13 +116,15 @@ const float justBelowOne = 1 - 0x1p-24f;
 TEST(Scatter, RefractsBySnellsLaw) {
     Random random(2);
     std::vector<ScatterCase> xs;
-    for (int i = 0; i < 50'000; i++) xs.push_back(glass(random.between(1.01f, 2.5f), random.direction(), random.direction(), justBelowOne));
+    for (int i = 0; i < 50'000; i++)
+        xs.push_back(glass(random.between(1.01f, 2.5f), random.direction(), random.direction(), justBelowOne));
     const auto ys = scatter(xs);
     for (std::size_t i = 0; i < xs.size(); i++) {
         const dvec3 d = xs[i].direction, out = dvec3(xs[i].normal);
         const bool leaving = glm::dot(d, out) > 0;
         const dvec3 n = leaving ? -out : out;
-        const double eta = leaving ? 1 / double{xs[i].material.ior} : double{xs[i].material.ior}, cosI = -glm::dot(d, n);
+        const double eta = leaving ? 1 / double{xs[i].material.ior} : double{xs[i].material.ior},
+                     cosI = -glm::dot(d, n);
         const double cos2 = 1 - (1 - cosI * cosI) / (eta * eta);
         if (std::abs(cos2) < 1e-3 || cosI < 1e-3) continue;
         const dvec3 expected = cos2 < 0 ? d + 2 * cosI * n : (d + cosI * n) / eta - std::sqrt(cos2) * n;
@@ -145,7 +144,8 @@ TEST(Scatter, RefractionIsReversible) {
         if (glm::dot(d, n) > 0) d = -d;
         if (glm::dot(d, n) < -0.02f) xs.push_back(glass(1.5f, n, d, justBelowOne));
     }
-    for (std::size_t i = 0; const ScatterValues& y : scatter(xs)) back.push_back(glass(1.5f, xs[i++].normal, -y.direction, justBelowOne));
+    for (std::size_t i = 0; const ScatterValues& y : scatter(xs))
+        back.push_back(glass(1.5f, xs[i++].normal, -y.direction, justBelowOne));
     const auto again = scatter(back);
     for (std::size_t i = 0; i < xs.size(); i++) ASSERT_LT(glm::length(again[i].direction + xs[i].direction), 2e-5);
 }
@@ -183,8 +183,8 @@ TEST(Scatter, MirrorsReflectFromBothSides) {
         }
 }
 
-// Whatever the shading normal, reflection stays on the side of incidence and refraction on the other; where the event about
-// the shading normal does so, it is the one taken.
+// Whatever the shading normal, reflection stays on the side of incidence and refraction on the other; where the event
+// about the shading normal does so, it is the one taken.
 TEST(Scatter, ShadingNormalsNeverPutLightOnTheWrongSide) {
     Random random(5);
     std::vector<ScatterCase> xs;
@@ -192,28 +192,36 @@ TEST(Scatter, ShadingNormalsNeverPutLightOnTheWrongSide) {
         const vec3 n = random.direction();
         vec3 shading = glm::normalize(n + random.cube(0.7f));
         if (glm::dot(shading, n) < 0) shading = -shading;
-        xs.push_back({{random.bits() % 2 ? MATERIAL_GLASS : MATERIAL_MIRROR, tint, 1.5f}, n, shading, random.direction(), random.unit()});
+        xs.push_back({{random.bits() % 2 ? MATERIAL_GLASS : MATERIAL_MIRROR, tint, 1.5f},
+                      n,
+                      shading,
+                      random.direction(),
+                      random.unit()});
     }
     const auto ys = scatter(xs, smooth);
     int aboutShading = 0;
     for (std::size_t i = 0; i < xs.size(); i++) {
         const float in = glm::dot(xs[i].direction, xs[i].normal), out = glm::dot(ys[i].direction, xs[i].normal);
         const bool reflected = ys[i].radianceScale == 1;
-        if (std::abs(out) > 1e-5f) { ASSERT_EQ(reflected, in * out < 0) << i; }
+        if (std::abs(out) > 1e-5f) {
+            ASSERT_EQ(reflected, in * out < 0) << i;
+        }
         ASSERT_NEAR(glm::length(ys[i].direction), 1, 1e-5);
         aboutShading += std::abs(glm::dot(ys[i].normal, xs[i].shading)) > 0.999999f;
     }
     EXPECT_GT(aboutShading, 60'000);
 }
 
-// What shading normals do to a path they do not do to it backwards; about the geometric normal, on either side, they do nothing.
+// What shading normals do to a path they do not do to it backwards; about the geometric normal, on either side, they do
+// nothing.
 TEST(Scatter, SpecularCorrectionOfAPathAndItsReverseCancel) {
     Random random(6);
     std::vector<CorrectionCase> forth, back, flatOnes;
     for (int i = 0; i < 1'000; i++) {
         const CorrectionCase x{random.direction(), random.direction(), random.direction(), random.direction()};
         const auto& [wi, wo, n, g] = x;
-        if (std::min({std::abs(glm::dot(wi, n)), std::abs(glm::dot(wi, g)), std::abs(glm::dot(wo, n)), std::abs(glm::dot(wo, g))}) > 0.03f) {
+        if (std::min({std::abs(glm::dot(wi, n)), std::abs(glm::dot(wi, g)), std::abs(glm::dot(wo, n)),
+                      std::abs(glm::dot(wo, g))}) > 0.03f) {
             forth.push_back(x);
             back.push_back({wo, wi, n, g});
         }
@@ -221,7 +229,8 @@ TEST(Scatter, SpecularCorrectionOfAPathAndItsReverseCancel) {
         flatOnes.push_back({wi, wo, -g, g});
     }
     ASSERT_GT(forth.size(), 700u);
-    const auto a = map<float>("specular_correction", forth), b = map<float>("specular_correction", back), ones = map<float>("specular_correction", forth, flat);
+    const auto a = map<float>("specular_correction", forth), b = map<float>("specular_correction", back),
+               ones = map<float>("specular_correction", forth, flat);
     std::size_t far = 0;
     for (std::size_t i = 0; i < forth.size(); i++) {
         ASSERT_NEAR(double{a[i]} * double{b[i]}, 1, 1e-4);
@@ -230,16 +239,21 @@ TEST(Scatter, SpecularCorrectionOfAPathAndItsReverseCancel) {
     }
     EXPECT_GT(far, forth.size() / 2);
     for (const float one : map<float>("specular_correction", flatOnes)) ASSERT_EQ(one, 1);
-    EXPECT_TRUE(std::isfinite(map<float>("specular_correction", std::vector<CorrectionCase>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}})[0]));
+    EXPECT_TRUE(std::isfinite(map<float>(
+        "specular_correction", std::vector<CorrectionCase>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}})[0]));
 }
 
 TEST(Scatter, SpecularSurvival) {
-    const auto ys = map<float>("specular_survival", std::vector<vec4>{{1, 1, 1, 0}, {1, 1, 1, 31}, {1, 1, 1, 32}, {0.5f, 0.2f, 0.1f, 3}, {0.1f, 0.2f, 0.5f, 99}, {0, 0, 0, 0}});
+    const auto ys = map<float>(
+        "specular_survival",
+        std::vector<vec4>{
+            {1, 1, 1, 0}, {1, 1, 1, 31}, {1, 1, 1, 32}, {0.5f, 0.2f, 0.1f, 3}, {0.1f, 0.2f, 0.5f, 99}, {0, 0, 0, 0}});
     EXPECT_EQ(ys, (std::vector<float>{1, 1, 0.9f, 0.5f, 0.5f, 0}));
 }
 
 TEST(Material, IsDiffuse) {
-    const std::vector<Material> all{{MATERIAL_DIFFUSE, tint, 0}, {MATERIAL_MIRROR, tint, 0}, {MATERIAL_GLASS, tint, 1.5f}};
+    const std::vector<Material> all{
+        {MATERIAL_DIFFUSE, tint, 0}, {MATERIAL_MIRROR, tint, 0}, {MATERIAL_GLASS, tint, 1.5f}};
     EXPECT_EQ(map<uint>("is_diffuse", all), (std::vector<uint>{1, 0, 0}));
     EXPECT_EQ(map<uint>("is_diffuse", std::vector{all[0]}, {.hasMirror = 0, .hasGlass = 0}), std::vector<uint>{1});
 }

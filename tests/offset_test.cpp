@@ -16,16 +16,15 @@ MapContext someScene() {
     return scene.context();
 }
 
-vec2 weightsOf(vec2 u) {
-    return u.x + u.y > 1 ? vec2(1) - u : u;
-}
+vec2 weightsOf(vec2 u) { return u.x + u.y > 1 ? vec2(1) - u : u; }
 
 // Random triangles of sides of `scale` about a point `away` from the origin; none that rounding made degenerate.
 std::vector<LeavingCase> leavingTriangles(float scale, float away, int count, Random& random) {
     std::vector<LeavingCase> xs;
     while (count-- > 0) {
         const vec3 center = away * random.direction();
-        const Primitive p = triangle(center + random.cube(scale), center + random.cube(scale), center + random.cube(scale));
+        const Primitive p =
+            triangle(center + random.cube(scale), center + random.cube(scale), center + random.cube(scale));
         if (glm::cross(dvec3(p.b) - dvec3(p.a), dvec3(p.c) - dvec3(p.a)) == dvec3(0)) continue;
         xs.push_back({p, weightsOf(random.unit2()), vec3(0), random.direction()});
     }
@@ -39,7 +38,8 @@ TEST(Offset, RaysThatLeaveATriangleDoNotHitItAgain) {
             const auto xs = leavingTriangles(scale, away, 10'000, random);
             const auto ys = map<Leaving>("leave_triangle", xs, flat, someScene());
             for (std::size_t i = 0; i < xs.size(); i++)
-                ASSERT_LE(ys[i].t, 0) << "scale " << scale << ", away " << away << ", cosine " << glm::dot(ys[i].normal, xs[i].direction);
+                ASSERT_LE(ys[i].t, 0) << "scale " << scale << ", away " << away << ", cosine "
+                                      << glm::dot(ys[i].normal, xs[i].direction);
         }
 }
 
@@ -52,7 +52,8 @@ TEST(Offset, OffsetsAreSmall) {
             const auto ys = map<Leaving>("leave_triangle", xs, flat, someScene());
             for (std::size_t i = 0; i < xs.size(); i++) {
                 const dvec3 p = dvec3(xs[i].primitive.a) * (1.0 - double{xs[i].weights.x} - double{xs[i].weights.y}) +
-                                dvec3(xs[i].primitive.b) * double{xs[i].weights.x} + dvec3(xs[i].primitive.c) * double{xs[i].weights.y};
+                                dvec3(xs[i].primitive.b) * double{xs[i].weights.x} +
+                                dvec3(xs[i].primitive.c) * double{xs[i].weights.y};
                 ASSERT_LT(glm::length(dvec3(ys[i].origin) - p), 1e-4 * double{scale + away});
             }
         }
@@ -72,10 +73,14 @@ TEST(Offset, RaysThatLeaveASphereDoNotHitWhereTheyLeft) {
             for (std::size_t i = 0; i < xs.size(); i++) {
                 const double cosine = glm::dot(dvec3(ys[i].normal), dvec3(xs[i].direction));
                 if (radius < 1e-5f * away) continue; // smaller than the rounding of its place
-                if (cosine > 0) { ASSERT_EQ(ys[i].t, -1) << "radius " << radius << ", away " << away << ", cosine " << cosine; }
+                if (cosine > 0) {
+                    ASSERT_EQ(ys[i].t, -1) << "radius " << radius << ", away " << away << ", cosine " << cosine;
+                }
                 // Inward the ray crosses the sphere: it must not end where it began.
                 const double offset = 4e-6 * 3 * double{radius + away};
-                if (cosine < -10 * offset / double{radius} - 0.01) { ASSERT_GT(ys[i].t, -cosine * double{radius}) << radius << " " << away; }
+                if (cosine < -10 * offset / double{radius} - 0.01) {
+                    ASSERT_GT(ys[i].t, -cosine * double{radius}) << radius << " " << away;
+                }
             }
         }
 }
@@ -101,13 +106,15 @@ TEST(Surface, OfATriangle) {
     scene.primitives[0].material = 7;
     scene.primitives[0].light = 9;
     scene.primitives[0].normals = 0;
-    const vec3 na = glm::normalize(vec3{1, 0, 1}), nb = glm::normalize(vec3{0, 1, 2}), nc = glm::normalize(vec3{-1, -1, 1});
+    const vec3 na = glm::normalize(vec3{1, 0, 1}), nb = glm::normalize(vec3{0, 1, 2}),
+               nc = glm::normalize(vec3{-1, -1, 1});
     for (const float side : {1.0f, -1.0f}) {
         scene.normals = {{side * na, side * nb, side * nc}};
         const TestScene uploaded(scene);
         for (const bool smooth : {false, true}) {
             const SurfaceCase x{.path = {}, .hit = {1, 0, vec2{0.25f, 0.5f}}};
-            const SurfaceValues y = map<SurfaceValues>("surface_at", std::vector{x}, {.hasSmoothNormals = smooth}, uploaded.context())[0];
+            const SurfaceValues y =
+                map<SurfaceValues>("surface_at", std::vector{x}, {.hasSmoothNormals = smooth}, uploaded.context())[0];
             EXPECT_EQ(y.position, (vec3{1.5f, 3.5f, 3}));
             EXPECT_EQ(y.magnitude, (vec3{5, 9, 9}));
             EXPECT_LT(glm::length(y.normal - vec3{0, 0, 1}), 1.3e-7); // drivers take roots and divide to some ulps

@@ -40,7 +40,9 @@ protected:
         return std::get<RenderOptions>(parse(words));
     }
 
-    static std::string text(std::vector<const char*> words) { return std::get<PrintOptions>(parse(std::move(words))).text; }
+    static std::string text(std::vector<const char*> words) {
+        return std::get<PrintOptions>(parse(std::move(words))).text;
+    }
 
     static std::string refusal(const std::vector<const char*>& words) {
         try {
@@ -91,12 +93,40 @@ TEST_F(OptionsTest, LeavesOpenWhatIsNotGiven) {
 }
 
 TEST_F(OptionsTest, OverridesTheScene) {
-    const RenderOptions options = render({"--size",       "640x480", "--integrator", "photon-map", "--map",     "caustic",
-                                    "--show",       "points",  "--passes",     "4",          "--photons", "1e6",
-                                    "--nearest",    "50",      "--caustic-photons", "0",     "--radius",  "0.25",
-                                    "--caustic-radius=.125",   "--kernel",     "cone",       "--fresnel", "schlick",
-                                    "--gather-rays", "7",      "--seed",       "4294967295", "--device",  "llvmpipe",   "--quiet",   "--stats",
-                                    "s.json",       "-o",      "a.exr"});
+    const RenderOptions options = render({"--size",
+                                          "640x480",
+                                          "--integrator",
+                                          "photon-map",
+                                          "--map",
+                                          "caustic",
+                                          "--show",
+                                          "points",
+                                          "--passes",
+                                          "4",
+                                          "--photons",
+                                          "1e6",
+                                          "--nearest",
+                                          "50",
+                                          "--caustic-photons",
+                                          "0",
+                                          "--radius",
+                                          "0.25",
+                                          "--caustic-radius=.125",
+                                          "--kernel",
+                                          "cone",
+                                          "--fresnel",
+                                          "schlick",
+                                          "--gather-rays",
+                                          "7",
+                                          "--seed",
+                                          "4294967295",
+                                          "--device",
+                                          "llvmpipe",
+                                          "--quiet",
+                                          "--stats",
+                                          "s.json",
+                                          "-o",
+                                          "a.exr"});
     const Settings settings = options.over(Settings{});
     EXPECT_EQ(settings.size, uvec2(640, 480));
     EXPECT_EQ(settings.integrator, INTEGRATOR_PHOTON_MAP);
@@ -145,7 +175,8 @@ TEST_F(OptionsTest, KnowsTheCommands) {
     EXPECT_EQ(compare.image, "a.exr");
     EXPECT_EQ(compare.reference, "b.exr");
     EXPECT_TRUE(compare.json);
-    EXPECT_THAT(refusal({"compare", "a.exr"}), AllOf(HasSubstr("found 1 file;"), HasSubstr("vkpm compare IMAGE REFERENCE")));
+    EXPECT_THAT(refusal({"compare", "a.exr"}),
+                AllOf(HasSubstr("found 1 file;"), HasSubstr("vkpm compare IMAGE REFERENCE")));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "c.exr"}), HasSubstr("found 3 files;"));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--jsn"}), HasSubstr("did you mean --json?"));
     EXPECT_THAT(refusal({"merge", "all.exr"}), HasSubstr("vkpm merge OUT.exr PART.exr..."));
@@ -153,7 +184,8 @@ TEST_F(OptionsTest, KnowsTheCommands) {
 }
 
 TEST_F(OptionsTest, ReadsWhatEndsSavesAndGoesOn) {
-    const RenderOptions options = render({"--time", "1.5", "--pass-range", "4:16", "--resume", "--checkpoint", "60", "--log", "l.jsonl", "--alpha", "1"});
+    const RenderOptions options = render({"--time", "1.5", "--pass-range", "4:16", "--resume", "--checkpoint", "60",
+                                          "--log", "l.jsonl", "--alpha", "1"});
     EXPECT_EQ(options.seconds, 1.5);
     EXPECT_EQ(options.passRange->begin, 4u);
     EXPECT_EQ(options.passRange->end, 16u);
@@ -173,9 +205,11 @@ TEST_F(OptionsTest, PrintsHelpAndVersion) {
         EXPECT_THAT(help, HasSubstr(fmt::format("(default {})", defaults.photons)));
         EXPECT_THAT(help, HasSubstr(fmt::format("(default {}x{})", defaults.size.x, defaults.size.y)));
     }
-    for (const auto& words : std::vector<std::vector<const char*>>{{"--version"}, {"compare", "--version"}, {"--passes", "x", "--version"}})
+    for (const auto& words :
+         std::vector<std::vector<const char*>>{{"--version"}, {"compare", "--version"}, {"--passes", "x", "--version"}})
         EXPECT_TRUE(std::holds_alternative<VersionOptions>(parse(words)));
-    EXPECT_THAT(text({"compare", "--help"}), AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
+    EXPECT_THAT(text({"compare", "--help"}),
+                AllOf(HasSubstr("IMAGE REFERENCE"), HasSubstr("mean(x - r)"), HasSubstr("FLIP")));
     EXPECT_THAT(text({"devices", "--help"}), AllOf(HasSubstr("--json"), Not(HasSubstr("--scene"))));
 }
 
@@ -184,32 +218,54 @@ TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
         const char *option, *value, *allowed;
     };
     for (const Case& c : std::vector<Case>{
-             {"--passes", "0", "from 1 to"},          {"--passes", "2.5", "whole number"},
-             {"--passes", "1e99", "from 1 to"},       {"--passes", "12abc", "whole number"},
-             {"--photons", "-3", "from 0 to"},        {"--photons", "2147483648", "2147483647"},
-             {"--photons", "nan", "whole number"},    {"--photons", "0x10", "whole number"},
-             {"--photons", " 3", "whole number"},     {"--caustic-photons", "inf", "whole number"},
-             {"--nearest", "many", "whole number"},   {"--seed", "4294967296", "4294967295"},
+             {"--passes", "0", "from 1 to"},
+             {"--passes", "2.5", "whole number"},
+             {"--passes", "1e99", "from 1 to"},
+             {"--passes", "12abc", "whole number"},
+             {"--photons", "-3", "from 0 to"},
+             {"--photons", "2147483648", "2147483647"},
+             {"--photons", "nan", "whole number"},
+             {"--photons", "0x10", "whole number"},
+             {"--photons", " 3", "whole number"},
+             {"--caustic-photons", "inf", "whole number"},
+             {"--nearest", "many", "whole number"},
+             {"--seed", "4294967296", "4294967295"},
              {"--gather-rays", "0", "from 1 to 1024"},
-             {"--radius", "0", "above 0"},            {"--radius", "-1", "above 0"},
-             {"--radius", "nan", "world units"},      {"--radius", "1e99", "above 0"},
-             {"--caustic-radius", "1m", "above 0"},   {"--size", "640", "WIDTHxHEIGHT"},
-             {"--size", "0x480", "from 1 to 65536"},  {"--size", "640x", "WIDTHxHEIGHT"},
-             {"--size", "65537x1", "65536"},          {"--size", "65536x65536", "268435456"},
-             {"--size", "640x480x3", "WIDTHxHEIGHT"}, {"--size", "1.5x2", "WIDTHxHEIGHT"},
+             {"--radius", "0", "above 0"},
+             {"--radius", "-1", "above 0"},
+             {"--radius", "nan", "world units"},
+             {"--radius", "1e99", "above 0"},
+             {"--caustic-radius", "1m", "above 0"},
+             {"--size", "640", "WIDTHxHEIGHT"},
+             {"--size", "0x480", "from 1 to 65536"},
+             {"--size", "640x", "WIDTHxHEIGHT"},
+             {"--size", "65537x1", "65536"},
+             {"--size", "65536x65536", "268435456"},
+             {"--size", "640x480x3", "WIDTHxHEIGHT"},
+             {"--size", "1.5x2", "WIDTHxHEIGHT"},
              {"--integrator", "pathh", "did you mean path?"},
              {"--integrator", "vcm", "photon, path, direct, photon-map, light"},
              {"--kernel", "box", "constant, cone, gauss, epanechnikov"},
-             {"--fresnel", "none", "exact, schlick"}, {"--map", "both", "global, caustic"},
-             {"--show", "all", "estimate, points"},   {"--output", "a.png", ".exr"},
-             {"--output", ".exr", ".exr"},            {"--output", "none/a.exr", "folder that exists"},
-             {"--stats", "none/s.json", "folder that exists"}, {"--stats", ".", "folder"},
-             {"--stats", "box.exr", "--output"},      {"--log", "box.exr", "--output"},
-             {"--time", "0", "seconds"},              {"--checkpoint", "-1", "seconds"},
-             {"--alpha", "0", "above 0"},             {"--alpha", "1.5", "at most 1"},
-             {"--pass-range", "16", "FIRST:END"},     {"--pass-range", "4:4", "FIRST below END"},
-             {"--pass-range", "0:2.5", "whole"},      {"--pass-range", ":4", "0:16"},
-             {"--pass-range", "0:3000000000", "at most"},      {"--device", "--quiet", "a value"},
+             {"--fresnel", "none", "exact, schlick"},
+             {"--map", "both", "global, caustic"},
+             {"--show", "all", "estimate, points"},
+             {"--output", "a.png", ".exr"},
+             {"--output", ".exr", ".exr"},
+             {"--output", "none/a.exr", "folder that exists"},
+             {"--stats", "none/s.json", "folder that exists"},
+             {"--stats", ".", "folder"},
+             {"--stats", "box.exr", "--output"},
+             {"--log", "box.exr", "--output"},
+             {"--time", "0", "seconds"},
+             {"--checkpoint", "-1", "seconds"},
+             {"--alpha", "0", "above 0"},
+             {"--alpha", "1.5", "at most 1"},
+             {"--pass-range", "16", "FIRST:END"},
+             {"--pass-range", "4:4", "FIRST below END"},
+             {"--pass-range", "0:2.5", "whole"},
+             {"--pass-range", ":4", "0:16"},
+             {"--pass-range", "0:3000000000", "at most"},
+             {"--device", "--quiet", "a value"},
          })
         EXPECT_THAT(refusalOfRender({c.option, c.value}),
                     AllOf(HasSubstr(c.option), HasSubstr(fmt::format("found \"{}\"", c.value)), HasSubstr(c.allowed)));
@@ -224,10 +280,12 @@ TEST_F(OptionsTest, RefusesWrongScenes) {
 }
 
 TEST_F(OptionsTest, AWindowTakesTheOptionsOfARender) {
-    const auto options = std::get<ViewOptions>(parse({"view", "--scene", "box.json", "--size", "64x48", "--passes", "3"}));
+    const auto options =
+        std::get<ViewOptions>(parse({"view", "--scene", "box.json", "--size", "64x48", "--passes", "3"}));
     EXPECT_EQ(options.size, uvec2(64, 48));
     EXPECT_EQ(options.output, "box.exr");
-    EXPECT_THAT(text({"view", "--help"}), AllOf(HasSubstr("vkpm view --scene FILE"), HasSubstr("default no end"), HasSubstr("Closing it saves")));
+    EXPECT_THAT(text({"view", "--help"}),
+                AllOf(HasSubstr("vkpm view --scene FILE"), HasSubstr("default no end"), HasSubstr("Closing it saves")));
     EXPECT_THAT(refusal({"view"}), HasSubstr("vkpm view --scene FILE"));
 }
 

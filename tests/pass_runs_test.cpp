@@ -58,7 +58,8 @@ const Columns columns;
 std::vector<float> samplesOf(uint pass) {
     Random random(pass);
     std::vector<float> samples(columns.SAMPLE_COLUMNS * size.x * size.y);
-    for (float& value : samples) value = std::exp(0.3f * float(random.bits() % 100)) * (random.bits() % 2 ? 1e-3f : 1.0f);
+    for (float& value : samples)
+        value = std::exp(0.3f * float(random.bits() % 100)) * (random.bits() % 2 ? 1e-3f : 1.0f);
     return samples;
 }
 
@@ -90,7 +91,8 @@ void expectSameBits(const std::vector<Pixel>& a, const std::vector<Pixel>& b) {
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)), 0);
 }
 
-// Blocks of a row, of some rows, the last one shorter, and of less than a row, that is a row: tiles and reads cross their borders.
+// Blocks of a row, of some rows, the last one shorter, and of less than a row, that is a row: tiles and reads cross
+// their borders.
 TEST(Film, BlocksGiveTheBitsOfTheWhole) {
     const PassRange passes{3, 25};
     const Film whole = filmOf(passes);
@@ -105,7 +107,8 @@ TEST(Film, BlocksGiveTheBitsOfTheWhole) {
 
 TEST(Film, PartsGiveTheBitsOfTheWhole) {
     const std::vector<Pixel> whole = filmOf({0, 45}).download();
-    for (const std::vector<uint>& cuts : {std::vector<uint>{0, 22, 45}, {0, 1, 2, 3, 45}, {0, 16, 32, 45}, {0, 5, 6, 19, 21, 40, 45}}) {
+    for (const std::vector<uint>& cuts :
+         {std::vector<uint>{0, 22, 45}, {0, 1, 2, 3, 45}, {0, 16, 32, 45}, {0, 5, 6, 19, 21, 40, 45}}) {
         Film merged(testGpu(), size);
         for (std::size_t i = 1; i < cuts.size(); i++) {
             const Film part = filmOf({cuts[i - 1], cuts[i]});
@@ -125,7 +128,8 @@ TEST(PassRuns, BatchesOfTwoSizesHaveDeviationsInEveryRun) {
         for (const PassRange run : runs) {
             const uint coarse = coarseBatch(run);
             for (const uint batch : {greatest, greatest / 4})
-                ASSERT_TRUE(batch == 0 || length(run) <= batch || coarse == batch || coarse == 4 * batch) << passes.begin << ":" << passes.end;
+                ASSERT_TRUE(batch == 0 || length(run) <= batch || coarse == batch || coarse == 4 * batch)
+                    << passes.begin << ":" << passes.end;
         }
         EXPECT_TRUE(begin > 0 || length(passes) < 8 || batchesOf(runs, greatest / 4).count >= 8u) << length(passes);
         EXPECT_DOUBLE_EQ(batchesOf(runs, greatest).weight, double(length(passes)) / greatest);
@@ -143,7 +147,8 @@ TEST(Film, SpreadIsTheVarianceOfTheMeanByBatches) {
             if (batch == 0) continue;
             std::vector<PassRange> parts;
             for (const PassRange run : runs)
-                for (uint first = run.begin; first < run.end; first += batch) parts.push_back({first, std::min(run.end, first + batch)});
+                for (uint first = run.begin; first < run.end; first += batch)
+                    parts.push_back({first, std::min(run.end, first + batch)});
             const Batches batches = batchesOf(runs, batch);
             ASSERT_EQ(parts.size(), batches.count);
             for (std::size_t i = 0; i < 5; i++) {
@@ -159,17 +164,20 @@ TEST(Film, SpreadIsTheVarianceOfTheMeanByBatches) {
                     glm::dvec3 sum{0};
                     for (uint pass = part.begin; pass < part.end; pass++) {
                         const std::vector<float> samples = samplesOf(pass);
-                        for (uint layer = 0; layer < LAYER_COUNT; layer++) sum += glm::dvec3(layerAt(samples, layer, i));
+                        for (uint layer = 0; layer < LAYER_COUNT; layer++)
+                            sum += glm::dvec3(layerAt(samples, layer, i));
                     }
                     mean += sum / double(length(passes));
                     means.push_back(sum / double(length(part)));
                 }
                 glm::dvec3 squares{0};
-                for (std::size_t k = 0; k < parts.size(); k++) squares += (means[k] - mean) * (means[k] - mean) * (double(length(parts[k])) / batch);
+                for (std::size_t k = 0; k < parts.size(); k++)
+                    squares += (means[k] - mean) * (means[k] - mean) * (double(length(parts[k])) / batch);
                 const double weight = double(length(passes)) / batch;
                 for (int c = 0; c < 3; c++) {
                     const double variance = parts.size() < 2 ? 0 : squares[c] / (double(parts.size()) - 1) / weight;
-                    EXPECT_NEAR(spread.variance(batches)[c], variance, 1e-6 * variance) << passes.begin << ":" << passes.end << " by " << batch;
+                    EXPECT_NEAR(spread.variance(batches)[c], variance, 1e-6 * variance)
+                        << passes.begin << ":" << passes.end << " by " << batch;
                 }
             }
         }
@@ -185,7 +193,8 @@ TEST(Film, MeansAreThoseOfDoublePrecision) {
     }
 }
 
-// Intervals of independent samples have the truth in them as often as they say, and those of samples that complement each other, too.
+// Intervals of independent samples have the truth in them as often as they say, and those of samples that complement
+// each other, too.
 TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
     const uvec2 area{64, 64};
     Features few;
@@ -200,7 +209,8 @@ TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
             Film film(testGpu(), area, few);
             for (uint pass = 0; pass < passes; pass++) {
                 std::vector<float> samples(std::size_t(own.SAMPLE_COLUMNS) * area.x * area.y);
-                // Van der Corput's sequence, shifted in each pixel: the mean over passes of a smooth function falls faster than its root.
+                // Van der Corput's sequence, shifted in each pixel: the mean over passes of a smooth function falls
+                // faster than its root.
                 float radical = 0;
                 for (uint bit = 0; bit < 16; bit++) radical += float(pass >> bit & 1) * std::exp2(-float(bit) - 1);
                 for (std::size_t i = 0; i < offset.size(); i++) {
@@ -221,7 +231,8 @@ TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
                 noise += double(pixel.noise.x) * double(pixel.noise.x);
             }
             inside /= double(pixels.size());
-            std::printf("%s, %u passes: %.3f inside, noise %.3f of the error\n", stratified ? "stratified" : "independent", passes, inside, std::sqrt(noise / squares));
+            std::printf("%s, %u passes: %.3f inside, noise %.3f of the error\n",
+                        stratified ? "stratified" : "independent", passes, inside, std::sqrt(noise / squares));
             EXPECT_GT(inside, 0.85) << stratified << " " << passes;
             EXPECT_LT(inside, 0.95) << stratified << " " << passes;
             EXPECT_NEAR(std::sqrt(noise / squares), 1, stratified ? 0.25 : 0.1) << stratified << " " << passes;
@@ -237,7 +248,9 @@ TEST(Film, ColumnsThatAreLeftOutAreZeroAndChangeNoOther) {
     for (uint pass = 0; pass < 6; pass++) {
         const std::vector<float> full = samplesOf(pass);
         std::vector<float> part(own.SAMPLE_COLUMNS * pixels), zeroed(full.size());
-        for (const auto& [from, to, count] : {std::tuple{columns.COLUMN_DIRECT, own.COLUMN_DIRECT, 3u}, {columns.COLUMN_INDIRECT, own.COLUMN_INDIRECT, 3u}, {columns.COLUMN_DEPTH, own.COLUMN_DEPTH, 2u}}) {
+        for (const auto& [from, to, count] : {std::tuple{columns.COLUMN_DIRECT, own.COLUMN_DIRECT, 3u},
+                                              {columns.COLUMN_INDIRECT, own.COLUMN_INDIRECT, 3u},
+                                              {columns.COLUMN_DEPTH, own.COLUMN_DEPTH, 2u}}) {
             std::copy_n(full.begin() + from * pixels, count * pixels, part.begin() + to * pixels);
             std::copy_n(full.begin() + from * pixels, count * pixels, zeroed.begin() + from * pixels);
         }

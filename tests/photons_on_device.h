@@ -39,7 +39,8 @@ inline Query queryAt(vec3 position, uint nearest = 0, vec3 normal = {0, 0, 1}) {
 inline double distance2(const Photon& photon, const Query& query, double radius) {
     const glm::dvec3 d = glm::dvec3(photon.position) - glm::dvec3(query.position);
     const double result = glm::dot(d, d), up = photon.normal == normalUp ? 1 : photon.normal == normalDown ? -1 : 0;
-    const bool counts = result < radius * radius && std::abs(glm::dot(d, glm::dvec3(query.normal))) <= 0.1 * radius && up * double{query.normal.z} > 0.5;
+    const bool counts = result < radius * radius && std::abs(glm::dot(d, glm::dvec3(query.normal))) <= 0.1 * radius &&
+                        up * double{query.normal.z} > 0.5;
     return counts ? result : INFINITY;
 }
 

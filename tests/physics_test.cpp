@@ -2,8 +2,8 @@
 #include "render_support.h"
 #include "shared_layers.h"
 #include "shared_photons.h"
-#include <gtest/gtest.h>
 #include <cstring>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace vkpm {
@@ -22,7 +22,10 @@ json box(double low, double high, const char* material) {
             corner[axis] = upper ? high : low;
             u[(axis + 1) % 3] = size;
             v[(axis + 2) % 3] = size;
-            faces.push_back({{"type", "rectangle"}, {"corner", corner}, {"edges", {upper ? v : u, upper ? u : v}}, {"material", material}});
+            faces.push_back({{"type", "rectangle"},
+                             {"corner", corner},
+                             {"edges", {upper ? v : u, upper ? u : v}},
+                             {"material", material}});
         }
     return faces;
 }
@@ -35,7 +38,13 @@ json furnace(double albedo, double emission) {
     return {{"camera", cameraAt({0, 0, 0}, {0, 0, -1}, 60)},
             {"film", {{"size", {16, 16}}}},
             {"materials", {{"wall", {{"type", "diffuse"}, {"albedo", albedo}}}}},
-            {"shapes", {{{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"material", "wall"}, {"emission", emission}, {"twoSided", true}}}}};
+            {"shapes",
+             {{{"type", "sphere"},
+               {"center", {0, 0, 0}},
+               {"radius", 1},
+               {"material", "wall"},
+               {"emission", emission},
+               {"twoSided", true}}}}};
 }
 
 // A sphere that emits E and reflects a everywhere: radiance E / (1 - a) in every direction, from each of its parts.
@@ -50,7 +59,8 @@ void expectFurnace(uint integrator, double tolerance) {
     EXPECT_EQ(image.nonfinite, 0u);
 }
 
-// 16,384 samples with a relative deviation of about 1: five standard errors are 4 %; the mean over pixels does far better.
+// 16,384 samples with a relative deviation of about 1: five standard errors are 4 %; the mean over pixels does far
+// better.
 TEST(Furnace, PathTracerFindsTheClosedForm) { expectFurnace(INTEGRATOR_PATH, 0.02); }
 
 // The tangent disc misses photons of a curved wall beyond (r / R)^2 / 4; r is a twentieth.
@@ -58,7 +68,8 @@ TEST(Furnace, PhotonMapFindsTheClosedForm) { expectFurnace(INTEGRATOR_PHOTON, 0.
 
 json lampRoom(double albedo) {
     json shapes = box(-1, 1, "wall");
-    shapes.push_back({{"type", "rectangle"}, {"corner", {-0.2, 0.5, -0.2}}, {"edges", {{0.4, 0, 0}, {0, 0, 0.4}}}, {"emission", 1}});
+    shapes.push_back(
+        {{"type", "rectangle"}, {"corner", {-0.2, 0.5, -0.2}}, {"edges", {{0.4, 0, 0}, {0, 0, 0.4}}}, {"emission", 1}});
     return {{"camera", cameraAt({0, 0, 0.9}, {0, 0, 0}, 40)},
             {"film", {{"size", {8, 8}}}},
             {"materials", {{"wall", {{"type", "diffuse"}, {"albedo", albedo}}}}},
@@ -81,8 +92,8 @@ TEST(PhotonLedger, ClosedRoomBalances) {
     }
 }
 
-// Deposits of a photon are geometric: mean 1 / (1 - a), variance a / (1 - a)^2. The light stands on a wall that reflects, so
-// nothing is black: a sphere that emits inwards and reflects a.
+// Deposits of a photon are geometric: mean 1 / (1 - a), variance a / (1 - a)^2. The light stands on a wall that
+// reflects, so nothing is black: a sphere that emits inwards and reflects a.
 TEST(PhotonLedger, StoredFluxIsTheGeometricSeries) {
     for (const double albedo : {0.5, 0.9, 0.99}) {
         json scene = furnace(albedo, 1);
@@ -96,7 +107,8 @@ TEST(PhotonLedger, StoredFluxIsTheGeometricSeries) {
 
 json rectangle(json corner, json u, json v) { return {{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}}; }
 
-// Fraction of a lamp's flux that arrives at a black receiver. Photons of a lamp far away are aimed at it, and weigh less.
+// Fraction of a lamp's flux that arrives at a black receiver. Photons of a lamp far away are aimed at it, and weigh
+// less.
 double formFactor(json lamp, json receiver, uint photons) {
     lamp["emission"] = 1;
     receiver["material"] = "black";
@@ -106,7 +118,8 @@ double formFactor(json lamp, json receiver, uint photons) {
                      {"shapes", {receiver, lamp}}};
     const Scene loaded = loadJson(scene);
     const UploadedScene uploaded(testGpu(), loaded, loaded.settings);
-    PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(loaded, loaded.settings), MapKind::global, photons, 0, 1u << 17);
+    PhotonTracing tracing(testGpu(), uploaded, sceneFeatures(loaded, loaded.settings), MapKind::global, photons, 0,
+                          1u << 17);
     const PhotonLedger ledger = tracing.trace(0);
     EXPECT_EQ(ledger.emitted, ledger.absorbed + ledger.escaped + ledger.lost);
     double flux = 0;
@@ -117,14 +130,16 @@ double formFactor(json lamp, json receiver, uint photons) {
 TEST(FormFactor, FacingSquares) {
     const uint photons = 1'000'000;
     for (const auto& [distance, expected] : {std::pair{1.0, 0.1998248957}, {0.1, 0.8269945224}, {10.0, 0.0031620568}}) {
-        const double found = formFactor(rectangle({0, distance, 0}, {1, 0, 0}, {0, 0, 1}), rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), photons);
+        const double found = formFactor(rectangle({0, distance, 0}, {1, 0, 0}, {0, 0, 1}),
+                                        rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), photons);
         EXPECT_NEAR(found, expected, 5 * std::sqrt(expected * (1 - expected) / photons)) << distance;
     }
 }
 
 TEST(FormFactor, PerpendicularSquares) {
     const double expected = 0.2000437761;
-    const double found = formFactor(rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1'000'000);
+    const double found =
+        formFactor(rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1'000'000);
     EXPECT_NEAR(found, expected, 5 * std::sqrt(expected * (1 - expected) / 1e6));
 }
 
@@ -150,21 +165,26 @@ TEST(Irradiance, UnderASquareLamp) {
 TEST(Irradiance, OfThePhotonMapUnderASquareLamp) {
     Settings settings{.size = {16, 16}, .photons = 2'000'000};
     settings.integrator = INTEGRATOR_PHOTON_MAP;
-    for (const uint kernel : {DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS, DENSITY_KERNEL_EPANECHNIKOV}) {
+    for (const uint kernel :
+         {DENSITY_KERNEL_CONSTANT, DENSITY_KERNEL_CONE, DENSITY_KERNEL_GAUSS, DENSITY_KERNEL_EPANECHNIKOV}) {
         settings.kernel = kernel;
         settings.radius = 0.05f; // some 3,700 photons; bias below 0.1 %
         const Rendered image = renderPasses(loadJson(floorUnderLamp(1)), settings, 1);
-        EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885, 0.7522746885 * 5 * std::sqrt(1.34 / 3700)) << kernel;
+        EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885,
+                    0.7522746885 * 5 * std::sqrt(1.34 / 3700))
+            << kernel;
     }
     settings.kernel = DENSITY_KERNEL_CONSTANT;
     settings.nearest = 2000;
     const Rendered image = renderPasses(loadJson(floorUnderLamp(1)), settings, 1);
-    EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885, 0.7522746885 * 5 / std::sqrt(2000.0));
+    EXPECT_NEAR(layerMean(image.pixels, LAYER_INDIRECT) * std::numbers::pi, 0.7522746885,
+                0.7522746885 * 5 / std::sqrt(2000.0));
 }
 
 // A lamp seen straight through a lossless plate of index 1.5, with all inner reflections.
 TEST(Glass, PlateTransmits) {
-    json shapes = json::array({rectangle({-5, -5, -0.05}, {0, 10, 0}, {10, 0, 0}), rectangle({-5, -5, 0.05}, {10, 0, 0}, {0, 10, 0})});
+    json shapes = json::array(
+        {rectangle({-5, -5, -0.05}, {0, 10, 0}, {10, 0, 0}), rectangle({-5, -5, 0.05}, {10, 0, 0}, {0, 10, 0})});
     for (json& face : shapes) face["material"] = "glass";
     json lamp = rectangle({-5, -5, -2}, {10, 0, 0}, {0, 10, 0});
     lamp["emission"] = 1;
@@ -178,7 +198,8 @@ TEST(Glass, PlateTransmits) {
     const uint passes = 64;
     const Rendered image = renderPasses(loadJson(scene), settings, passes);
     // Each sample is 0 or 1.
-    EXPECT_NEAR(layerMean(image.pixels, LAYER_SPECULAR), 0.9230769, 5 * std::sqrt(0.923 * 0.077 / (32.0 * 32 * passes)));
+    EXPECT_NEAR(layerMean(image.pixels, LAYER_SPECULAR), 0.9230769,
+                5 * std::sqrt(0.923 * 0.077 / (32.0 * 32 * passes)));
 }
 
 TEST(Determinism, TwoRunsGiveTheSameBits) {
@@ -213,7 +234,8 @@ TEST(Scale, APowerOfTwoChangesNoBitOfTheRadiance) {
             const Rendered scaled = renderPasses(scaledBox(factor), settings, 1);
             std::size_t differ = 0;
             for (std::size_t i = 0; i < tame.pixels.size(); i++)
-                differ += std::memcmp(&tame.pixels[i].mean.layers, &scaled.pixels[i].mean.layers, sizeof(tame.pixels[i].mean.layers)) != 0;
+                differ += std::memcmp(&tame.pixels[i].mean.layers, &scaled.pixels[i].mean.layers,
+                                      sizeof(tame.pixels[i].mean.layers)) != 0;
             EXPECT_EQ(differ, 0u) << integrator << ", " << factor;
         }
     }

@@ -2,9 +2,9 @@
 #include "judge.h"
 #include "map.h"
 #include "precision.h"
-#include "scene_on_device.h"
-#include "scene/box.h"
 #include "render/radius.h"
+#include "scene/box.h"
+#include "scene_on_device.h"
 #include <gtest/gtest.h>
 
 namespace vkpm {
@@ -278,15 +278,22 @@ TEST(Precision, SolidAngle) {
     Random random(6);
     std::vector<VectorPair> xs;
     for (int i = 0; i < 100'000; i++)
-        xs.push_back({{random.between(-1.5f, 1.5f), random.between(-1.5f, 1.5f), std::exp2(random.between(-12, 0.5f))}, {0.5f, 0.5f, 0}});
+        xs.push_back({{random.between(-1.5f, 1.5f), random.between(-1.5f, 1.5f), std::exp2(random.between(-12, 0.5f))},
+                      {0.5f, 0.5f, 0}});
     Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
-    scene.lights = {{.a = {-0.5f, -0.5f, 0}, .u = {1, 0, 0}, .v = {0, 1, 0}, .radiance = vec3(1), .kind = LIGHT_RECTANGLE, .area = 1}};
+    scene.lights = {{.a = {-0.5f, -0.5f, 0},
+                     .u = {1, 0, 0},
+                     .v = {0, 1, 0},
+                     .radiance = vec3(1),
+                     .kind = LIGHT_RECTANGLE,
+                     .area = 1}};
     scene.lightCdf = {1};
     const TestScene onDevice(scene);
     const auto ys = map<SeenValues>("seen_point", xs, {}, onDevice.context());
     Precision precision("solid angle of a square", "2^-12 to 2 of its side away");
     for (std::size_t i = 0; i < xs.size(); i++)
-        precision.add(double{ys[i].solidAngle}, std::array{double{xs[i].a.x}, double{xs[i].a.y}, double{xs[i].a.z}}, exactSolidAngle);
+        precision.add(double{ys[i].solidAngle}, std::array{double{xs[i].a.x}, double{xs[i].a.y}, double{xs[i].a.z}},
+                      exactSolidAngle);
     judge(precision, 2000, 1); // 841 on lavapipe, 1672 on an NVIDIA H100
 }
 

@@ -33,7 +33,8 @@ protected:
     /// `environment` is set for this run, as in NAME=value.
     Result run(const std::string& arguments, const std::string& environment = "") const {
         const fs::path log = folder / "log.txt";
-        const std::string command = "cd '" + folder.string() + "' && " + environment + " '" VKPM_PROGRAM "' " + arguments + " > '" + log.string() + "' 2>&1";
+        const std::string command = "cd '" + folder.string() + "' && " + environment + " '" VKPM_PROGRAM "' " +
+                                    arguments + " > '" + log.string() + "' 2>&1";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytesOf(log)};
     }

@@ -2,13 +2,13 @@
 #include "interrupt.h"
 #include "output/progress.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <array>
 #include <fcntl.h>
-#include <poll.h>
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -131,7 +131,8 @@ TEST(InterruptDeathTest, TheFirstSetsAFlagTheSecondKills) {
         onInterrupt("nothing to save", true);
         std::raise(SIGHUP);
     };
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) EXPECT_EXIT(interruptOnce(signal), testing::ExitedWithCode(0), "vkpm: saving");
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        EXPECT_EXIT(interruptOnce(signal), testing::ExitedWithCode(0), "vkpm: saving");
     EXPECT_EXIT(hangUpTwice(), testing::ExitedWithCode(0), "vkpm: saving");
     EXPECT_EXIT(withoutAHangUp(), testing::ExitedWithCode(0), "");
     EXPECT_EXIT(tooEarly(), testing::ExitedWithCode(130), "vkpm: nothing to save");

@@ -13,7 +13,8 @@ TEST(Radius, ScheduleFollowsItsRecurrence) {
         long double square = 1;
         for (uint i = 1; i <= 1'000'000; i++) {
             if (i < 100 || i % 99'991 == 0) {
-                ASSERT_NEAR(radiusFactor(i - 1, alpha), std::sqrt(double(square)), 2e-7 * std::sqrt(double(square))) << i;
+                ASSERT_NEAR(radiusFactor(i - 1, alpha), std::sqrt(double(square)), 2e-7 * std::sqrt(double(square)))
+                    << i;
             }
             square *= (i + (long double)alpha) / (i + 1.0L);
         }
@@ -32,7 +33,8 @@ TEST(Radius, ScheduleStaysForAlphaOneAndFallsForever) {
         EXPECT_LT(factor, before);
         before = factor;
     }
-    EXPECT_NEAR(before / std::pow(2.0, -31.0 / 6), 1 / std::sqrt(std::tgamma(5.0 / 3)), 0.1); // n^((a-1)/2) / sqrt(Gamma(1 + a))
+    EXPECT_NEAR(before / std::pow(2.0, -31.0 / 6), 1 / std::sqrt(std::tgamma(5.0 / 3)),
+                0.1); // n^((a-1)/2) / sqrt(Gamma(1 + a))
 }
 
 // A floor of side 2 in a scene that a horizon makes a million times as large.
@@ -72,14 +74,18 @@ TEST(Radius, ExtentIsThatOfTheLight) {
 std::vector<Photon> plane(uint inverseDensity, uint dense, float scale) {
     Random random(5);
     std::vector<Photon> photons;
-    const auto add = [&](float half) { photons.push_back({vec3(random.between(-half, half), random.between(-half, half), 0.1f) * scale, vec3(1), normalUp}); };
+    const auto add = [&](float half) {
+        photons.push_back(
+            {vec3(random.between(-half, half), random.between(-half, half), 0.1f) * scale, vec3(1), normalUp});
+    };
     for (uint i = 0; i < inverseDensity; i++) add(4);
     for (uint i = 0; i < dense; i++) add(0.1f);
     return photons;
 }
 
 // First radii at places, in units of `scale`; the widest is 1.
-std::vector<float> measuredRadii(const std::vector<Photon>& photons, float perDisc, const std::vector<vec3>& places, float scale = 1) {
+std::vector<float> measuredRadii(const std::vector<Photon>& photons, float perDisc, const std::vector<vec3>& places,
+                                 float scale = 1) {
     PhotonGrid grid(testGpu(), "test");
     Buffer<Photon> buffer(testGpu(), "test photons", photons);
     PhotonMap onDevice = grid.build(buffer, static_cast<uint>(photons.size()), scale, 1, MAX_LEVELS);
@@ -98,12 +104,14 @@ TEST(RadiusField, DiscsHoldAsManyPhotonsAsWanted) {
         const double expected = std::sqrt(20 * 64 / (pi * count)); // of a disc that holds 20
         std::vector<vec3> places;
         for (int i = -3; i <= 3; i++) places.push_back({0.9f * float(i), 0.37f * float(i), 0.1f});
-        for (const float radius : measuredRadii(plane(count, 0, 1), 20, places)) EXPECT_NEAR(radius / expected, 1, 0.3) << count;
+        for (const float radius : measuredRadii(plane(count, 0, 1), 20, places))
+            EXPECT_NEAR(radius / expected, 1, 0.3) << count;
     }
 }
 
 TEST(RadiusField, SpotsGetSmallRadiiAndWidePlacesWideOnes) {
-    const auto radii = measuredRadii(plane(2000, 30'000, 1), 10, {{0, 0, 0.1f}, {3, 3, 0.1f}, {-3, 2, 0.1f}, {50, 50, 50}});
+    const auto radii =
+        measuredRadii(plane(2000, 30'000, 1), 10, {{0, 0, 0.1f}, {3, 3, 0.1f}, {-3, 2, 0.1f}, {50, 50, 50}});
     EXPECT_LT(radii[0], 0.1f);  // 10 photons lie within 0.002
     EXPECT_GT(radii[0], 0.06f); // of which a sixteenth is the least there is
     EXPECT_GT(radii[1], 0.2f);  // within 0.32
@@ -113,7 +121,8 @@ TEST(RadiusField, SpotsGetSmallRadiiAndWidePlacesWideOnes) {
 
 // Photons of a spot far narrower than a map's narrowest cells want another map, which knows of nothing but the spot.
 TEST(RadiusField, NarrowMapsAnswerWhereDiscsAreNarrow) {
-    const auto ratio = [](const std::vector<Photon>& photons, float widest, bool partial, const std::vector<vec3>& places, RadiusField& field) {
+    const auto ratio = [](const std::vector<Photon>& photons, float widest, bool partial,
+                          const std::vector<vec3>& places, RadiusField& field) {
         PhotonGrid grid(testGpu(), "test", 11);
         const Buffer<Photon> buffer(testGpu(), "test photons", photons);
         PhotonMap map = grid.build(buffer, static_cast<uint>(photons.size()), widest, 1, 3);
@@ -131,7 +140,7 @@ TEST(RadiusField, NarrowMapsAnswerWhereDiscsAreNarrow) {
     EXPECT_NEAR(narrow.known, 0.97f, 0.02f);
     EXPECT_LT(narrow.overfull, 0.01f);
     const double expected = std::sqrt(10 * 0.04 / (pi * 60'000)); // of a disc that holds 10: 0.0015
-    EXPECT_LT(radii[0], 2.5 * expected);                          // an eighth of the widest is the least there is: 0.002
+    EXPECT_LT(radii[0], 2.5 * expected); // an eighth of the widest is the least there is: 0.002
     EXPECT_NEAR(radii[0], radii[1], 0.3 * radii[0]);
     EXPECT_EQ((std::vector<float>{radii.begin() + 2, radii.end()}), std::vector<float>(3, 0.0f));
 }

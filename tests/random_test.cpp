@@ -25,7 +25,8 @@ bool isNet(std::span<const vec2> net, uint m) {
     for (uint j = 0; j <= m; j++) {
         std::vector<uint> counts(net.size());
         for (const vec2 p : net) {
-            const auto column = static_cast<uint>(p.x * float(1u << j)), row = static_cast<uint>(p.y * float(1u << (m - j)));
+            const auto column = static_cast<uint>(p.x * float(1u << j)),
+                       row = static_cast<uint>(p.y * float(1u << (m - j)));
             counts[column + (row << j)]++;
         }
         for (const uint count : counts)
@@ -40,7 +41,8 @@ TEST(Random, SobolPointsAreNets) {
             const auto all = points(0, 2048, seed, dimension);
             for (uint m = 0; m <= 10; m++)
                 for (std::size_t first = 0; first + (1u << m) <= all.size(); first += 1u << m)
-                    ASSERT_TRUE(isNet(std::span(all).subspan(first, 1u << m), m)) << seed << " " << dimension << " " << m << " " << first;
+                    ASSERT_TRUE(isNet(std::span(all).subspan(first, 1u << m), m))
+                        << seed << " " << dimension << " " << m << " " << first;
         }
 }
 
@@ -82,7 +84,8 @@ TEST(Random, DimensionsAndSeedsAreUncorrelated) {
         for (std::size_t b = a; b < sequences.size(); b++)
             for (int i = 0; i < 2; i++)
                 for (int j = a == b ? i + 1 : 0; j < 2; j++)
-                    EXPECT_LT(std::abs(correlation(sequences[a], sequences[b], i, j)), 5.0 / 64) << a << " " << b << " " << i << j;
+                    EXPECT_LT(std::abs(correlation(sequences[a], sequences[b], i, j)), 5.0 / 64)
+                        << a << " " << b << " " << i << j;
 }
 
 // One point of each of many sequences; chi-square below 5 standard deviations (p about 1e-6).
@@ -128,9 +131,7 @@ TEST(Random, UnitFloatIsBelowOne) {
     EXPECT_EQ(ys, (std::vector<float>{0, 0, 0x1p-24f, 0.5f, 1 - 0x1p-24f, 1 - 0x1p-24f}));
 }
 
-uint leadingEqual(uint a, uint b) {
-    return a == b ? 32 : static_cast<uint>(std::countl_zero(a ^ b));
-}
+uint leadingEqual(uint a, uint b) { return a == b ? 32 : static_cast<uint>(std::countl_zero(a ^ b)); }
 
 // Two words part at the same bit before and after; the bit that parts them is flipped in half of the cases.
 TEST(Random, OwenScramblingIsNested) {

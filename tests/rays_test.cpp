@@ -10,7 +10,8 @@
 namespace vkpm {
 namespace {
 
-// A million rays; a twentieth where each costs twenty times as much: with asserts, under a sanitizer or a validation layer.
+// A million rays; a twentieth where each costs twenty times as much: with asserts, under a sanitizer or a validation
+// layer.
 #ifdef NDEBUG
 constexpr uint rayCount = 1'000'000;
 #else
@@ -31,7 +32,8 @@ Features withoutContact(const Scene& scene) {
 class Device {
 public:
     explicit Device(const Scene& scene)
-        : uploaded(gpu, scene, Settings{.size = {16, 16}}), trace(gpu, "trace", withoutContact(scene)), shadow(gpu, "shadow", withoutContact(scene)) {}
+        : uploaded(gpu, scene, Settings{.size = {16, 16}}), trace(gpu, "trace", withoutContact(scene)),
+          shadow(gpu, "shadow", withoutContact(scene)) {}
 
     std::vector<Hit> closest(std::span<const TestRay> rays) {
         std::vector<Path> started;
@@ -46,8 +48,7 @@ public:
 
     std::vector<bool> occluded(std::span<const TestRay> rays) {
         std::vector<ShadowRay> asked;
-        for (const TestRay& ray : rays)
-            asked.push_back({ray.origin, ray.from, ray.origin + ray.direction, vec3{1}, 0});
+        for (const TestRay& ray : rays) asked.push_back({ray.origin, ray.from, ray.origin + ray.direction, vec3{1}, 0});
         const Buffer<ShadowRay> shadowRays(gpu, "shadow rays", asked);
         const Buffer<float> samples(gpu, "samples", std::vector<float>(3 * rays.size()));
         runAll(shadow, rays.size(), [&](const auto& queue, const auto& list) {

@@ -60,7 +60,9 @@ inline Estimate estimate(const std::vector<double>& values) {
 /// How many standard errors two estimates are apart.
 inline double zScore(Estimate a, Estimate b) { return (a.mean - b.mean) / std::hypot(a.error, b.error); }
 
-inline Scene shippedScene(const std::string& name) { return loadScene(std::filesystem::path(VKPM_SCENES) / (name + ".json")); }
+inline Scene shippedScene(const std::string& name) {
+    return loadScene(std::filesystem::path(VKPM_SCENES) / (name + ".json"));
+}
 
 /// The ring's cusp from nearby: most of its caustic is out of sight, so that photons are guided.
 inline Scene ringCusp() {

@@ -39,12 +39,14 @@ protected:
         while (std::getline(file, line)) {
             Row row;
             std::istringstream names(header), values(line + ",");
-            for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) row[name] = value;
+            for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');)
+                row[name] = value;
             if (row["layer"] == layer) found.push_back(row);
         }
         return found;
     }
-    const std::string render = "--scene " + scene("box") + " --size 32x24 --photons 3000 --caustic-photons 3000 --quiet ";
+    const std::string render =
+        "--scene " + scene("box") + " --size 32x24 --photons 3000 --caustic-photons 3000 --quiet ";
 };
 
 TEST_F(ReportProgram, MeasuresTheErrorAgainstAReference) {
@@ -56,7 +58,8 @@ TEST_F(ReportProgram, MeasuresTheErrorAgainstAReference) {
     std::vector<std::string> passes;
     for (const Row& row : beauty) passes.push_back(row.at("pass"));
     EXPECT_THAT(passes, ElementsAre("1", "2", "3", "4", "6", "8", "11", "16", "23", "24"));
-    for (const char* layer : {"emission", "direct", "specular", "caustic", "indirect"}) EXPECT_EQ(rows(layer).size(), beauty.size()) << layer;
+    for (const char* layer : {"emission", "direct", "specular", "caustic", "indirect"})
+        EXPECT_EQ(rows(layer).size(), beauty.size()) << layer;
     EXPECT_LT(std::stod(beauty.back().at("relmse")), 0.2 * std::stod(beauty.front().at("relmse")));
     EXPECT_EQ(beauty.front().at("error"), ""); // one pass does not know
     for (std::size_t i = 1; i < beauty.size(); i++) {
@@ -74,7 +77,8 @@ TEST_F(ReportProgram, MeasuresTheErrorAgainstAReference) {
     for (const char* layer : {"beauty", "caustic", "indirect"})
         for (const char* measure : {"rmse", "relmse", "mean_error", "flip"}) {
             const double expected = layers[layer][measure];
-            EXPECT_NEAR(std::stod(rows(layer).back().at(measure)), expected, 1e-5 * std::abs(expected)) << layer << " " << measure;
+            EXPECT_NEAR(std::stod(rows(layer).back().at(measure)), expected, 1e-5 * std::abs(expected))
+                << layer << " " << measure;
         }
     const auto error = nlohmann::json::parse(bytesOf(folder / "a.json"))["error"];
     EXPECT_NEAR(std::stod(beauty.back().at("error")), error["relative"].get<double>(), 1e-5);
@@ -89,15 +93,22 @@ TEST_F(ReportProgram, PageOpensInABrowserWithoutANetwork) {
     ASSERT_EQ(run(render + "--passes 8 -o a.exr --reference reference.exr --report report").code, 0);
     const std::string page = bytesOf(folder / "report/index.html");
     EXPECT_THAT(page, Not(ContainsRegex("(src|href)=\"(http|//)")));
-    ASSERT_EQ(std::system("command -v chromium > /dev/null"), 0) << "chromium is not installed; tools/setup installs it";
+    ASSERT_EQ(std::system("command -v chromium > /dev/null"), 0)
+        << "chromium is not installed; tools/setup installs it";
 
     // A script of the test's says what the browser made of the page.
-    std::ofstream(folder / "judge.html") << page << "<script>onload = () => { document.title = JSON.stringify({"
-        "pictures: [...document.images].map(i => i.complete && i.naturalWidth), curves: document.querySelectorAll('svg polyline').length,"
-        "diagrams: document.querySelectorAll('svg').length, requests: performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length,"
-        "text: document.body.innerText.includes('90 % sure')}) }</script>";
-    const std::string dump = "timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" + (folder / "profile").string() +
-        "' --virtual-time-budget=5000 --dump-dom 'file://" + (folder / "judge.html").string() + "' > '" + (folder / "dom.html").string() + "' 2> '" + (folder / "chromium.txt").string() + "'";
+    std::ofstream(folder / "judge.html")
+        << page
+        << "<script>onload = () => { document.title = JSON.stringify({"
+           "pictures: [...document.images].map(i => i.complete && i.naturalWidth), curves: "
+           "document.querySelectorAll('svg polyline').length,"
+           "diagrams: document.querySelectorAll('svg').length, requests: "
+           "performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length,"
+           "text: document.body.innerText.includes('90 % sure')}) }</script>";
+    const std::string dump = "timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
+                             (folder / "profile").string() + "' --virtual-time-budget=5000 --dump-dom 'file://" +
+                             (folder / "judge.html").string() + "' > '" + (folder / "dom.html").string() + "' 2> '" +
+                             (folder / "chromium.txt").string() + "'";
     ASSERT_EQ(std::system(dump.c_str()), 0) << bytesOf(folder / "chromium.txt");
     const std::string dom = bytesOf(folder / "dom.html");
     const std::size_t begin = dom.find("<title>") + 7;
@@ -146,7 +157,8 @@ TEST_F(ReportProgram, RefusesWhatCannotBe) {
 
 // Stops where the estimate is small enough, at a number of passes that does not depend on how the render was cut.
 TEST_F(ReportProgram, TargetErrorEndsTheRender) {
-    const Result result = run("--scene " + scene("diffuse_box") + " --size 32x24 --photons 3000 --target-error 0.1 -o a.exr --stats a.json");
+    const Result result = run("--scene " + scene("diffuse_box") +
+                              " --size 32x24 --photons 3000 --target-error 0.1 -o a.exr --stats a.json");
     ASSERT_EQ(result.code, 0) << result.output;
     EXPECT_THAT(result.output, AllOf(HasSubstr("90 % sure"), Not(HasSubstr("100 %"))));
     const auto stats = nlohmann::json::parse(bytesOf(folder / "a.json"));

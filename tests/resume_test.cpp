@@ -15,10 +15,10 @@
 namespace vkpm {
 namespace {
 
+using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-using nlohmann::json;
 
 class Resume : public Program {
 protected:
@@ -38,9 +38,12 @@ protected:
         return result.output;
     }
     void expectSameFiles(const std::string& a, const std::string& b) const {
-        for (const char* kind : {".exr", ".png"}) EXPECT_TRUE(bytesOf(folder / (a + kind)) == bytesOf(folder / (b + kind))) << a << " and " << b << kind;
+        for (const char* kind : {".exr", ".png"})
+            EXPECT_TRUE(bytesOf(folder / (a + kind)) == bytesOf(folder / (b + kind))) << a << " and " << b << kind;
     }
-    int passesOf(const std::string& file) const { return std::stoi(readExrHeader(folder / file).attributes.at("passes")); }
+    int passesOf(const std::string& file) const {
+        return std::stoi(readExrHeader(folder / file).attributes.at("passes"));
+    }
 };
 
 TEST_F(Resume, HalvesAndPartsGiveTheFileOfOneRun) {
@@ -53,7 +56,8 @@ TEST_F(Resume, HalvesAndPartsGiveTheFileOfOneRun) {
     render("--passes 21 --resume -o fresh.exr"); // nothing there yet
     expectSameFiles("fresh", "whole");
 
-    for (const auto& [range, name] : {std::pair("0:5", "a"), {"5:6", "b"}, {"6:16", "c"}, {"16:21", "d"}}) render(fmt::format("--pass-range {} -o {}.exr", range, name));
+    for (const auto& [range, name] : {std::pair("0:5", "a"), {"5:6", "b"}, {"6:16", "c"}, {"16:21", "d"}})
+        render(fmt::format("--pass-range {} -o {}.exr", range, name));
     merge("ordered.exr a.exr b.exr c.exr d.exr");
     expectSameFiles("ordered", "whole");
     merge("shuffled.exr d.exr b.exr a.exr c.exr");
@@ -81,11 +85,14 @@ TEST_F(Resume, APictureAloneIsTheSamePicture) {
     render("--passes 7 --no-resume -o picture.exr");
     const auto whole = channelsOf(folder / "whole.exr"), picture = channelsOf(folder / "picture.exr");
     EXPECT_EQ(picture.size(), 31u);
-    for (const auto& [name, values] : picture) EXPECT_TRUE(std::memcmp(values.data(), whole.at(name).data(), values.size() * sizeof(float)) == 0) << name;
+    for (const auto& [name, values] : picture)
+        EXPECT_TRUE(std::memcmp(values.data(), whole.at(name).data(), values.size() * sizeof(float)) == 0) << name;
     EXPECT_TRUE(bytesOf(folder / "picture.png") == bytesOf(folder / "whole.png"));
-    EXPECT_THAT(refusal(box + "--passes 9 --resume -o picture.exr"), HasSubstr("picture.exr: was saved with --no-resume"));
+    EXPECT_THAT(refusal(box + "--passes 9 --resume -o picture.exr"),
+                HasSubstr("picture.exr: was saved with --no-resume"));
     EXPECT_THAT(refusal("merge x.exr picture.exr"), HasSubstr("was saved with --no-resume"));
-    for (const char* option : {"--resume", "--checkpoint 1", "--pass-range 0:4"}) EXPECT_THAT(refusal(box + "--no-resume -o x.exr " + option), HasSubstr("found with --no-resume")) << option;
+    for (const char* option : {"--resume", "--checkpoint 1", "--pass-range 0:4"})
+        EXPECT_THAT(refusal(box + "--no-resume -o x.exr " + option), HasSubstr("found with --no-resume")) << option;
 }
 
 TEST_F(Resume, HalfFloatsGoOnWithTheBitsOfOneRun) {
@@ -98,7 +105,8 @@ TEST_F(Resume, HalfFloatsGoOnWithTheBitsOfOneRun) {
     double most = 0;
     for (const char* name : {"R", "G", "B", "direct.R", "indirect.G", "albedo.B"})
         for (std::size_t i = 0; i < exact.at(name).size(); i++)
-            if (exact.at(name)[i] > 1e-4f) most = std::max(most, std::abs(double(half.at(name)[i]) / exact.at(name)[i] - 1));
+            if (exact.at(name)[i] > 1e-4f)
+                most = std::max(most, std::abs(double(half.at(name)[i]) / exact.at(name)[i] - 1));
     EXPECT_GT(most, 1e-5);
     EXPECT_LE(most, 0x1p-11);
     EXPECT_TRUE(half.at("depth.Z") == exact.at("depth.Z"));
@@ -108,7 +116,8 @@ TEST_F(Resume, HalfFloatsGoOnWithTheBitsOfOneRun) {
     for (json& shape : bright["shapes"])
         if (shape.contains("emission")) shape["emission"] = 1e6;
     std::ofstream(folder / "bright.json") << bright;
-    const Result result = run("--scene bright.json --size 24x16 --passes 1 --photons 500 --caustic-photons 300 --quiet --half -o bright.exr");
+    const Result result = run(
+        "--scene bright.json --size 24x16 --passes 1 --photons 500 --caustic-photons 300 --quiet --half -o bright.exr");
     EXPECT_EQ(result.code, 0);
     EXPECT_THAT(result.output, AllOf(HasSubstr("warning: bright.exr: "), HasSubstr("larger than 65504")));
     const auto saved = channelsOf(folder / "bright.exr").at("emission.R");
@@ -116,18 +125,30 @@ TEST_F(Resume, HalfFloatsGoOnWithTheBitsOfOneRun) {
 }
 
 TEST_F(Resume, MergeRefusesByName) {
-    for (const char* range : {"0:4", "2:6", "4:8", "12:16"}) render(fmt::format("--pass-range {} -o {}.exr", range, std::string(range).replace(std::string(range).find(':'), 1, "-")));
-    EXPECT_THAT(refusal("merge x.exr 0-4.exr 2-6.exr"), AllOf(HasSubstr("0-4.exr and 2-6.exr"), HasSubstr("passes 2 to 3")));
+    for (const char* range : {"0:4", "2:6", "4:8", "12:16"})
+        render(fmt::format("--pass-range {} -o {}.exr", range,
+                           std::string(range).replace(std::string(range).find(':'), 1, "-")));
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr 2-6.exr"),
+                AllOf(HasSubstr("0-4.exr and 2-6.exr"), HasSubstr("passes 2 to 3")));
     EXPECT_THAT(refusal("merge x.exr 0-4.exr 0-4.exr"), HasSubstr("passes 0 to 3"));
-    EXPECT_THAT(refusal("merge x.exr 12-16.exr 0-4.exr 4-8.exr"), AllOf(HasSubstr("passes 8 to 11 are missing"), HasSubstr("4-8.exr and 12-16.exr")));
+    EXPECT_THAT(refusal("merge x.exr 12-16.exr 0-4.exr 4-8.exr"),
+                AllOf(HasSubstr("passes 8 to 11 are missing"), HasSubstr("4-8.exr and 12-16.exr")));
     EXPECT_THAT(refusal("merge x.exr 4-8.exr"), AllOf(HasSubstr("passes 0 to 3 are missing"), HasSubstr("--part")));
 
-    const std::string other = "--scene " + scene("box") + " --size 24x16 --photons 600 --caustic-photons 300 --quiet --pass-range 4:8 -o ";
+    const std::string other =
+        "--scene " + scene("box") + " --size 24x16 --photons 600 --caustic-photons 300 --quiet --pass-range 4:8 -o ";
     EXPECT_EQ(run(other + "photons.exr").code, 0);
-    EXPECT_THAT(refusal("merge x.exr 0-4.exr photons.exr"), AllOf(HasSubstr("photons.exr"), HasSubstr("photons: 600"), HasSubstr("500")));
-    EXPECT_EQ(run("--scene " + scene("ring") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet --pass-range 4:8 -o ring.exr").code, 0);
+    EXPECT_THAT(refusal("merge x.exr 0-4.exr photons.exr"),
+                AllOf(HasSubstr("photons.exr"), HasSubstr("photons: 600"), HasSubstr("500")));
+    EXPECT_EQ(run("--scene " + scene("ring") +
+                  " --size 24x16 --photons 500 --caustic-photons 300 --quiet --pass-range 4:8 -o ring.exr")
+                  .code,
+              0);
     EXPECT_THAT(refusal("merge x.exr 0-4.exr ring.exr"), AllOf(HasSubstr("ring.exr"), HasSubstr("scene: /")));
-    EXPECT_EQ(run("--scene " + scene("box") + " --size 24x16 --photons 500 --caustic-photons 300 --quiet --seed 1 --pass-range 4:8 -o seed.exr").code, 0);
+    EXPECT_EQ(run("--scene " + scene("box") +
+                  " --size 24x16 --photons 500 --caustic-photons 300 --quiet --seed 1 --pass-range 4:8 -o seed.exr")
+                  .code,
+              0);
     EXPECT_THAT(refusal("merge x.exr 0-4.exr seed.exr"), HasSubstr("seed: 1"));
 
     writeExr(folder / "stranger.exr", Image{{2, 2}, {{"R", {1, 2, 3, 4}}}, {}});
@@ -142,34 +163,42 @@ TEST_F(Resume, MergeRefusesByName) {
 TEST_F(Resume, RefusesOtherSettingsWithWhatDiffers) {
     render("--passes 3 -o x.exr");
     const std::string before = bytesOf(folder / "x.exr");
-    const std::string same = "--scene " + scene("box") + " --size 24x16 --caustic-photons 300 --quiet --passes 6 --resume -o x.exr ";
+    const std::string same =
+        "--scene " + scene("box") + " --size 24x16 --caustic-photons 300 --quiet --passes 6 --resume -o x.exr ";
     EXPECT_THAT(refusal(same + "--photons 501"), AllOf(HasSubstr("x.exr"), HasSubstr("photons: 501 here, 500 there")));
-    EXPECT_THAT(refusal(same + "--photons 500 --alpha 1 --kernel cone"), AllOf(HasSubstr("alpha: 1.0 here"), HasSubstr("kernel: \"cone\" here")));
+    EXPECT_THAT(refusal(same + "--photons 500 --alpha 1 --kernel cone"),
+                AllOf(HasSubstr("alpha: 1.0 here"), HasSubstr("kernel: \"cone\" here")));
     EXPECT_THAT(refusal(same + "--photons 500 --radius 0.1"), HasSubstr("radius: 0.1"));
-    EXPECT_THAT(refusal(box + "--pass-range 1:6 --resume -o x.exr"), AllOf(HasSubstr("passes 0 to 2"), HasSubstr("begins with pass 1")));
+    EXPECT_THAT(refusal(box + "--pass-range 1:6 --resume -o x.exr"),
+                AllOf(HasSubstr("passes 0 to 2"), HasSubstr("begins with pass 1")));
     EXPECT_TRUE(bytesOf(folder / "x.exr") == before);
 
     Image cropped = readExr(folder / "x.exr");
     cropped.size.y = 8;
     for (Channel& channel : cropped.channels) channel.values.resize(24 * 8);
     writeExr(folder / "cropped.exr", cropped);
-    EXPECT_THAT(refusal(box + "--passes 6 --resume -o cropped.exr"), AllOf(HasSubstr("cropped.exr"), HasSubstr("24x8")));
+    EXPECT_THAT(refusal(box + "--passes 6 --resume -o cropped.exr"),
+                AllOf(HasSubstr("cropped.exr"), HasSubstr("24x8")));
 
     // What a scene says of itself and how many passes it wants may change, what it shows may not.
     json text = json::parse(bytesOf(scene("box")));
     text["about"] = "another text";
     text["settings"]["passes"] = 5;
     std::ofstream(folder / "box2.json") << text;
-    EXPECT_EQ(run("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr").code, 0);
+    EXPECT_EQ(run("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr").code,
+              0);
     EXPECT_EQ(passesOf("x.exr"), 5);
     text["camera"]["fieldOfView"] = 31;
     std::ofstream(folder / "box2.json") << text;
-    EXPECT_THAT(refusal("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr"), HasSubstr("scene: /camera/fieldOfView"));
+    EXPECT_THAT(refusal("--scene box2.json --size 24x16 --photons 500 --caustic-photons 300 --quiet --resume -o x.exr"),
+                HasSubstr("scene: /camera/fieldOfView"));
 }
 
 TEST_F(Resume, TimeIsKeptWithinOnePass) {
     for (const double seconds : {0.5, 2.0}) {
-        const Result result = run("--scene " + scene("box") + " --size 96x64 --photons 20000 --quiet --stats s.json -o x.exr --time " + std::to_string(seconds));
+        const Result result =
+            run("--scene " + scene("box") + " --size 96x64 --photons 20000 --quiet --stats s.json -o x.exr --time " +
+                std::to_string(seconds));
         ASSERT_EQ(result.code, 0) << result.output;
         const json stats = json::parse(bytesOf(folder / "s.json"));
         const double rendered = stats["seconds"]["render"];
@@ -187,8 +216,10 @@ class Child {
 public:
     Child(const fs::path& folder, const std::string& sceneFile) {
         const std::string output = folder / "x.exr", log = folder / "log.jsonl";
-        std::vector<std::string> words{VKPM_PROGRAM, "--scene", sceneFile, "--size", "24x16", "--photons", "500", "--caustic-photons", "300", "--quiet",
-                                       "--passes", "100000", "--resume", "--checkpoint", "0.05", "--log", log, "-o", output};
+        std::vector<std::string> words{VKPM_PROGRAM, "--scene",           sceneFile, "--size",  "24x16",    "--photons",
+                                       "500",        "--caustic-photons", "300",     "--quiet", "--passes", "100000",
+                                       "--resume",   "--checkpoint",      "0.05",    "--log",   log,        "-o",
+                                       output};
         std::vector<char*> arguments;
         for (std::string& word : words) arguments.push_back(word.data());
         arguments.push_back(nullptr);
@@ -225,7 +256,9 @@ TEST_F(Resume, KilledAtAnyMomentItLosesAnIntervalAtMost) {
             const Child child(folder, scene("box"));
             // From its first save on, or, now and then, during the start.
             const int checkpoints = lastCheckpoint(folder / "log.jsonl");
-            for (int wait = 0; kills % 4 != 0 && wait < 600 && lastCheckpoint(folder / "log.jsonl") == checkpoints; wait++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            for (int wait = 0; kills % 4 != 0 && wait < 600 && lastCheckpoint(folder / "log.jsonl") == checkpoints;
+                 wait++)
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
             std::this_thread::sleep_for(std::chrono::microseconds(random() % 200'000));
         }
         kills++;
@@ -253,10 +286,12 @@ TEST_F(Resume, AFullDiskLeavesTheLastGoodFile) {
     render("--passes 2 -o x.exr");
     fs::create_directory(folder / "disk");
     const auto kibibytes = 3 * (fs::file_size(folder / "x.exr") + fs::file_size(folder / "x.png")) / 2 / 1024;
-    const std::string space = std::string("unshare --mount ") + (::geteuid() == 0 ? "" : "--map-root-user ") + "sh -c 'mount -t tmpfs -o size=" +
-                              std::to_string(kibibytes) + "k none disk && cp x.exr x.png disk && ";
+    const std::string space = std::string("unshare --mount ") + (::geteuid() == 0 ? "" : "--map-root-user ") +
+                              "sh -c 'mount -t tmpfs -o size=" + std::to_string(kibibytes) +
+                              "k none disk && cp x.exr x.png disk && ";
     const auto shell = [&](const std::string& command) {
-        const int status = std::system(("cd " + folder.string() + " && " + space + command + "' > log.txt 2>&1").c_str());
+        const int status =
+            std::system(("cd " + folder.string() + " && " + space + command + "' > log.txt 2>&1").c_str());
         return Result{WEXITSTATUS(status), bytesOf(folder / "log.txt")};
     };
     if (shell("true").code != 0) GTEST_SKIP() << "no small disk can be mounted here: " << bytesOf(folder / "log.txt");

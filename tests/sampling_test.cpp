@@ -1,4 +1,5 @@
-/// Samplers: chi-square against their densities (below 5 standard deviations, p about 1e-6), and means with a closed form.
+/// Samplers: chi-square against their densities (below 5 standard deviations, p about 1e-6), and means with a closed
+/// form.
 #include "judge.h"
 #include "map.h"
 #include <gtest/gtest.h>

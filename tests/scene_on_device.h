@@ -1,8 +1,8 @@
 /// Small scenes for shader tests: shapes to a hierarchy on the device.
 #pragma once
-#include "scene/box.h"
 #include "map.h"
 #include "render/uploaded_scene.h"
+#include "scene/box.h"
 #include "scene/bvh.h"
 #include "shared_scene.h"
 
@@ -23,7 +23,9 @@ inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
 
 inline Primitive triangle(vec3 a, vec3 b, vec3 c) { return {a, b, c, 0, NONE, NONE}; }
 
-inline Primitive sphere(vec3 center, float radius) { return {center, vec3{radius}, poleOf(center, radius), 0, NONE, NONE}; }
+inline Primitive sphere(vec3 center, float radius) {
+    return {center, vec3{radius}, poleOf(center, radius), 0, NONE, NONE};
+}
 
 /// A scene whose arrays kernels can read.
 struct TestScene : UploadedScene {

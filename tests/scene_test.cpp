@@ -1,15 +1,15 @@
 /// The scene loader: what it makes of cameras, materials, shapes, transforms, meshes and lights.
 #include "render/features.h"
 #include "scene/bounding_sphere.h"
+#include "scene/lights.h"
 #include "scene/scene.h"
 #include "scene_text.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include "scene/lights.h"
-#include <ranges>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <ranges>
 
 namespace vkpm {
 namespace {
@@ -210,29 +210,38 @@ std::string refusalOfMesh(const std::string& text) {
 // As exporters write them.
 TEST(Scene, MeshesOfOtherProgramsAreRead) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-    for (const std::string& lines : {corners + "f 1 2 \\\n 3 4\n", corners + "f 1 \\\r\n2 \\\r\n3 4", corners + "f 1//0 2//0 3//0 4//0", corners + "f 1/0/0 2/0/0 3/0/0 4/0/0",
-                                     corners + "f 1 2 3 4 \\", std::string("v 0 0 \\\n0\n") + corners.substr(8) + "f 1 2 3 4"}) {
+    for (const std::string& lines :
+         {corners + "f 1 2 \\\n 3 4\n", corners + "f 1 \\\r\n2 \\\r\n3 4", corners + "f 1//0 2//0 3//0 4//0",
+          corners + "f 1/0/0 2/0/0 3/0/0 4/0/0", corners + "f 1 2 3 4 \\",
+          std::string("v 0 0 \\\n0\n") + corners.substr(8) + "f 1 2 3 4"}) {
         const Scene scene = loadMeshText(lines);
         EXPECT_EQ(scene.triangleCount, 4u) << lines; // two, and the light's
         EXPECT_TRUE(scene.normals.empty() && scene.warnings.empty()) << lines;
     }
-    EXPECT_THAT(refusalOfMesh(corners + "f 1 \\\n2 9\n"), HasSubstr("mesh.obj:5: a face refers to vertex 9")); // the line where it begins
+    EXPECT_THAT(refusalOfMesh(corners + "f 1 \\\n2 9\n"),
+                HasSubstr("mesh.obj:5: a face refers to vertex 9")); // the line where it begins
     EXPECT_THAT(refusalOfMesh(corners + "f 1 \\\n2 3\nf 1 2 9\n"), HasSubstr("mesh.obj:7: a face refers to vertex 9"));
     EXPECT_THAT(refusalOfMesh(corners + "f 0 1 2\n"), HasSubstr("mesh.obj:5: found \"0\""));
 
     const Scene odd = loadMeshText(corners + "f 1 2\nf 1 2 3 4\nf 3\n");
     EXPECT_EQ(odd.triangleCount, 4u);
-    EXPECT_THAT(odd.warnings, ElementsAre(AllOf(HasSubstr("/shapes/0/file"), HasSubstr("2 faces have fewer than 3 corners"))));
+    EXPECT_THAT(odd.warnings,
+                ElementsAre(AllOf(HasSubstr("/shapes/0/file"), HasSubstr("2 faces have fewer than 3 corners"))));
 
-    const Scene many = loadMeshText(corners + "usemtl glass\nf 1 2 3\nusemtl white paint \nf 1 3 4\nusemtl glass\nf 1 2 4\nusemtl unused\n");
-    EXPECT_THAT(many.warnings, ElementsAre(AllOf(HasSubstr("use 2 materials"), HasSubstr("\"glass\""), HasSubstr("\"white paint\""))));
+    const Scene many = loadMeshText(
+        corners + "usemtl glass\nf 1 2 3\nusemtl white paint \nf 1 3 4\nusemtl glass\nf 1 2 4\nusemtl unused\n");
+    EXPECT_THAT(many.warnings,
+                ElementsAre(AllOf(HasSubstr("use 2 materials"), HasSubstr("\"glass\""), HasSubstr("\"white paint\""))));
     EXPECT_TRUE(loadMeshText(corners + "usemtl glass\nf 1 2 3\nusemtl glass\nf 1 3 4\n").warnings.empty());
 }
 
 /// What is said of a glass mesh of a cube's corners and these faces.
-std::vector<std::string> saidOfGlass(const std::string& faces, json transform = json::array(), const json& more = json::array()) {
+std::vector<std::string> saidOfGlass(const std::string& faces, json transform = json::array(),
+                                     const json& more = json::array()) {
     json shape = mesh("cube.obj");
-    shape["file"] = writeScene("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n" + faces, "mesh.obj").string();
+    shape["file"] =
+        writeScene("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n" + faces, "mesh.obj")
+            .string();
     shape["material"] = "water";
     shape["name"] = "pane";
     if (!transform.empty()) shape["transform"] = transform;
@@ -244,29 +253,39 @@ std::vector<std::string> saidOfGlass(const std::string& faces, json transform = 
 }
 
 TEST(Scene, GlassThatBoundsNoSolidIsNamed) {
-    const std::string cube = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", sheet = "f 1 2 3 4\n";
+    const std::string cube = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+                      sheet = "f 1 2 3 4\n";
     EXPECT_THAT(saidOfGlass(cube), testing::IsEmpty());
     EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, -2, 3]}])")), testing::IsEmpty()) << "mirrored";
     EXPECT_THAT(saidOfGlass(sheet), ElementsAre(AllOf(HasSubstr("/shapes/1: \"pane\": the glass is open, 4 edges"))));
     EXPECT_THAT(saidOfGlass(cube.substr(cube.find('\n') + 1)), ElementsAre(HasSubstr("the glass is open, 4 edges")));
-    EXPECT_THAT(saidOfGlass("f 1 2 3 4\n" + cube.substr(cube.find('\n') + 1)), ElementsAre(HasSubstr("face different ways at 4 edges")));
-    EXPECT_THAT(saidOfGlass("f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"), ElementsAre(HasSubstr("inside out")));
-    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"translate": [0, 3, 0]}])")), ElementsAre(HasSubstr("the glass is 1e-05 thick")));
-    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"scale": 1e9}])")), testing::Not(testing::IsEmpty()));
+    EXPECT_THAT(saidOfGlass("f 1 2 3 4\n" + cube.substr(cube.find('\n') + 1)),
+                ElementsAre(HasSubstr("face different ways at 4 edges")));
+    EXPECT_THAT(saidOfGlass("f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"),
+                ElementsAre(HasSubstr("inside out")));
+    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"translate": [0, 3, 0]}])")),
+                ElementsAre(HasSubstr("the glass is 1e-05 thick")));
+    EXPECT_THAT(saidOfGlass(cube, json::parse(R"([{"scale": [1, 1e-5, 1]}, {"scale": 1e9}])")),
+                testing::Not(testing::IsEmpty()));
 
     // Water between walls, and what rectangles close.
     const auto wall = [](vec3 corner, vec3 u, vec3 v, const char* material) {
         const auto list = [](vec3 x) { return json{x.x, x.y, x.z}; };
-        return json{{"type", "rectangle"}, {"corner", list(corner)}, {"edges", {list(u), list(v)}}, {"material", material}};
+        return json{
+            {"type", "rectangle"}, {"corner", list(corner)}, {"edges", {list(u), list(v)}}, {"material", material}};
     };
     const json walls{wall({0, 0, -1}, {0, 1, 0}, {0, 0, 2}, "grey"), wall({1, 0, -1}, {0, 1, 0}, {0, 0, 2}, "grey"),
                      wall({0, 0, -1}, {1, 0, 0}, {0, 0, 2}, "grey"), wall({0, 1, -1}, {1, 0, 0}, {0, 0, 2}, "grey")};
     EXPECT_THAT(saidOfGlass(sheet, json::array(), walls), testing::IsEmpty());
-    EXPECT_THAT(saidOfGlass(cube, json::array(), json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water")}), ElementsAre(HasSubstr("/shapes/2: the glass is open")));
-    EXPECT_THAT(saidOfGlass(cube, json::array(), json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water"), wall({3, 0, 0}, {0, 1, 0}, {0, 0, 1}, "water"),
-                                                      wall({3, 0, 0}, {0, 0, 1}, {1, 0, 0}, "water"), wall({4, 1, 1}, {-1, 0, 0}, {0, 0, -1}, "water"),
-                                                      wall({4, 1, 1}, {0, 0, -1}, {0, -1, 0}, "water"), wall({4, 1, 1}, {0, -1, 0}, {-1, 0, 0}, "water")}),
-                testing::IsEmpty());
+    EXPECT_THAT(saidOfGlass(cube, json::array(), json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water")}),
+                ElementsAre(HasSubstr("/shapes/2: the glass is open")));
+    EXPECT_THAT(
+        saidOfGlass(
+            cube, json::array(),
+            json{wall({3, 0, 0}, {1, 0, 0}, {0, 1, 0}, "water"), wall({3, 0, 0}, {0, 1, 0}, {0, 0, 1}, "water"),
+                 wall({3, 0, 0}, {0, 0, 1}, {1, 0, 0}, "water"), wall({4, 1, 1}, {-1, 0, 0}, {0, 0, -1}, "water"),
+                 wall({4, 1, 1}, {0, 0, -1}, {0, -1, 0}, "water"), wall({4, 1, 1}, {0, -1, 0}, {-1, 0, 0}, "water")}),
+        testing::IsEmpty());
 
     // A cube beside it that shares a face, one with a gap, one that shares a part of the face, one of another material.
     const auto cubeAt = [](vec3 place, const char* material) {
@@ -275,19 +294,23 @@ TEST(Scene, GlassThatBoundsNoSolidIsNamed) {
         shape["transform"] = {{{"scale", 0.5}}, {{"translate", {place.x + 0.5f, place.y + 0.5f, place.z + 0.5f}}}};
         return json{shape};
     };
-    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0, 0}, "water")), ElementsAre(AllOf(HasSubstr("/shapes/2: a face of the glass lies on one of \"pane\""))));
-    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0.3f, 0.4f}, "water")), ElementsAre(HasSubstr("lies on one of")));
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0, 0}, "water")),
+                ElementsAre(AllOf(HasSubstr("/shapes/2: a face of the glass lies on one of \"pane\""))));
+    EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0.3f, 0.4f}, "water")),
+                ElementsAre(HasSubstr("lies on one of")));
     EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1.001f, 0, 0}, "water")), testing::IsEmpty());
     EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({0.5f, 0.5f, 0.5f}, "water")), testing::IsEmpty()) << "overlap";
     EXPECT_THAT(saidOfGlass(cube, json::array(), cubeAt({1, 0, 0}, "grey")), testing::IsEmpty());
 }
 
 TEST(Scene, MeshNumbersThatNobodyUsesMayBeAnything) {
-    const std::string corners = "v 0 0 0\nv 1 0 0\nv nan nan -nan(ind)\nv 1 1 0\nv 0 1e39 inf\nvn 0 0 1\nvn nan nan nan\n";
+    const std::string corners =
+        "v 0 0 0\nv 1 0 0\nv nan nan -nan(ind)\nv 1 1 0\nv 0 1e39 inf\nvn 0 0 1\nvn nan nan nan\n";
     EXPECT_EQ(loadMeshText(corners + "f 1 2 4\n").triangleCount, 3u);
     EXPECT_EQ(loadMeshText(corners + "f 1//1 2//1 4//1\n").normals.size(), 1u);
     EXPECT_EQ(loadMeshText(corners + "f 1//2 2//2 4//2\n", false).triangleCount, 3u);
-    EXPECT_THAT(refusalOfMesh(corners + "f 1//2 2//2 4//2\n"), HasSubstr("mesh.obj:7: a normal that a face uses is not finite"));
+    EXPECT_THAT(refusalOfMesh(corners + "f 1//2 2//2 4//2\n"),
+                HasSubstr("mesh.obj:7: a normal that a face uses is not finite"));
     EXPECT_THAT(refusalOfMesh(corners + "f 1 2 3\n"), HasSubstr("mesh.obj:3: found \"nan nan -nan(ind)\""));
     EXPECT_THAT(refusalOfMesh(corners + "f 1 2 5\n"), HasSubstr("mesh.obj:5: found \"0 1e39 inf\""));
     EXPECT_THAT(refusalOfMesh("v 0 0 zero\nf 1 1 1\n"), HasSubstr("mesh.obj:1: found \"zero\""));
@@ -304,7 +327,9 @@ TEST(Scene, FacesOfManyCorners) {
     const Scene scene = loadMeshText(text + face);
     EXPECT_EQ(scene.triangleCount, count - 2 + 2u);
     double area = 0;
-    for (uint i = 0; i < count - 2; i++) area += 0.5 * glm::length(glm::cross(scene.primitives[i].b - scene.primitives[i].a, scene.primitives[i].c - scene.primitives[i].a));
+    for (uint i = 0; i < count - 2; i++)
+        area += 0.5 * glm::length(glm::cross(scene.primitives[i].b - scene.primitives[i].a,
+                                             scene.primitives[i].c - scene.primitives[i].a));
     EXPECT_NEAR(area, 0.5 * count * 0.9 * std::sin(2 * std::numbers::pi / count), 1e-4);
 }
 
@@ -312,10 +337,17 @@ TEST(Scene, OtherFormatsAreRecognised) {
     using namespace std::literals;
     std::string stl(84 + 50, '\0');
     stl[80] = 1;
-    const std::pair<std::string, const char*> files[] = {{"ply\nformat ascii 1.0\n", "a PLY file"}, {"solid thing\n facet normal 0 0 1\n", "an STL file"}, {stl, "an STL file"},
-                                                         {"\x1f\x8b\x08\0\0"s, "compressed by gzip"}, {"glTF\2\0\0\0"s, "a GLB file"}, {"{\"asset\": {}}", "glTF"},
-                                                         {"BLENDER-v304", "a Blender file"}, {"Kaydara FBX Binary  \0"s, "an FBX file"}, {"PK\3\4", "a ZIP archive"}};
-    for (const auto& [text, name] : files) EXPECT_THAT(refusalOfMesh(text), AllOf(HasSubstr(name), HasSubstr("allowed is a Wavefront OBJ file"))) << name;
+    const std::pair<std::string, const char*> files[] = {{"ply\nformat ascii 1.0\n", "a PLY file"},
+                                                         {"solid thing\n facet normal 0 0 1\n", "an STL file"},
+                                                         {stl, "an STL file"},
+                                                         {"\x1f\x8b\x08\0\0"s, "compressed by gzip"},
+                                                         {"glTF\2\0\0\0"s, "a GLB file"},
+                                                         {"{\"asset\": {}}", "glTF"},
+                                                         {"BLENDER-v304", "a Blender file"},
+                                                         {"Kaydara FBX Binary  \0"s, "an FBX file"},
+                                                         {"PK\3\4", "a ZIP archive"}};
+    for (const auto& [text, name] : files)
+        EXPECT_THAT(refusalOfMesh(text), AllOf(HasSubstr(name), HasSubstr("allowed is a Wavefront OBJ file"))) << name;
 }
 
 TEST(Scene, NoPhotonsAreAllowedAsOnTheCommandLine) {
@@ -331,12 +363,16 @@ TEST(Scene, TrianglesWithoutAreaAreDroppedWithAWarning) {
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("scene.json: /shapes/0: 1 of 2 triangles")));
 }
 
-// However weak a light is, random numbers of 24 bits choose it, and its photons weigh what makes up for the probability.
+// However weak a light is, random numbers of 24 bits choose it, and its photons weigh what makes up for the
+// probability.
 TEST(Scene, WeakLightsHaveTheirFlux) {
     for (const double weak : {1e-1, 1e-7, 1e-12}) {
         json scene = smallScene();
         for (const int place : {20, 30, 40}) {
-            scene["shapes"].push_back({{"type", "sphere"}, {"center", {place, 0, 0}}, {"radius", 2}, {"emission", place == 30 ? 3.0 : 3 * weak}});
+            scene["shapes"].push_back({{"type", "sphere"},
+                                       {"center", {place, 0, 0}},
+                                       {"radius", 2},
+                                       {"emission", place == 30 ? 3.0 : 3 * weak}});
         }
         const Scene lit = loadJson(scene);
         ASSERT_EQ(lit.lights.size(), 4u);
@@ -363,7 +399,8 @@ TEST(Scene, CumulativeGivesStepsToAll) {
     EXPECT_TRUE(std::ranges::is_sorted(cdf));
     EXPECT_EQ(cdf.back(), 1.0f);
     EXPECT_EQ(cdf[7], cdf[6]);
-    EXPECT_EQ(std::ranges::count_if(std::views::iota(1u, 1'000'000u), [&](uint i) { return cdf[i] > cdf[i - 1]; }), 999'998);
+    EXPECT_EQ(std::ranges::count_if(std::views::iota(1u, 1'000'000u), [&](uint i) { return cdf[i] > cdf[i - 1]; }),
+              999'998);
     EXPECT_EQ(cumulative(std::vector{0.0, 2.0, 2.0, 0.0}), (std::vector{0.0f, 0.5f, 1.0f, 1.0f}));
 }
 
@@ -434,9 +471,15 @@ TEST(Scene, GlassThatMayTouchOpaqueFacesIsFound) {
     writeScene("v 0 0 0\nv .1 0 0\nv 0 0 .1\nv 0 .1 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", "block.obj");
     const auto contact = [](double height, double aside, double far) {
         json scene = smallScene();
-        scene["shapes"][0] = {{"type", "mesh"}, {"file", "block.obj"}, {"material", "water"}, {"transform", {{{"translate", {aside, height, 0}}}}}};
-        scene["shapes"].push_back({{"type", "rectangle"}, {"corner", {-1, 0, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "grey"}});
-        if (far > 0) scene["shapes"].push_back({{"type", "sphere"}, {"center", {0, far, 0}}, {"radius", far / 100}, {"emission", 1}});
+        scene["shapes"][0] = {{"type", "mesh"},
+                              {"file", "block.obj"},
+                              {"material", "water"},
+                              {"transform", {{{"translate", {aside, height, 0}}}}}};
+        scene["shapes"].push_back(
+            {{"type", "rectangle"}, {"corner", {-1, 0, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "grey"}});
+        if (far > 0)
+            scene["shapes"].push_back(
+                {{"type", "sphere"}, {"center", {0, far, 0}}, {"radius", far / 100}, {"emission", 1}});
         const Scene loaded = loadJson(scene);
         return sceneFeatures(loaded, loaded.settings).hasContact;
     };

@@ -12,9 +12,7 @@ namespace {
 
 const std::vector<uint> sizes{0, 1, 63, 64, 65, 4095, 4096, 4097, (1u << 20) + 1};
 
-uint mask(uint bits) {
-    return bits == 32 ? 0xffffffffu : (1u << bits) - 1;
-}
+uint mask(uint bits) { return bits == 32 ? 0xffffffffu : (1u << bits) - 1; }
 
 // Values are indices, so a sort that is not stable shows.
 void expectSorted(Sort& sort, const std::vector<uint>& keys, uint bits, const char* what) {
@@ -52,7 +50,8 @@ TEST(Sort, RandomKeys) {
 }
 
 TEST(Sort, ConstantKeys) {
-    for (const uint key : {0u, 0xffffffffu, 0x12345678u}) expectAllSorted(32, "constant", [&](uint, uint) { return key; });
+    for (const uint key : {0u, 0xffffffffu, 0x12345678u})
+        expectAllSorted(32, "constant", [&](uint, uint) { return key; });
 }
 
 TEST(Sort, SortedAndReversedKeys) {

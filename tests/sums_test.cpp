@@ -27,8 +27,8 @@ vec3 sampleOf(uint pixel, Random& random) {
 
 const char* const names[]{"even", "1000 + even", "rare and high", "constant"};
 
-// The sums that the film has to match, of the parts of the render that deviations are about: batches of passes, and one for each
-// run of passes that is less than a batch.
+// The sums that the film has to match, of the parts of the render that deviations are about: batches of passes, and one
+// for each run of passes that is less than a batch.
 struct Expected {
     std::vector<PassRange> parts;
     std::vector<std::vector<glm::dvec3>> sums; // [pixel][part]
@@ -36,10 +36,13 @@ struct Expected {
 
     Expected(std::span<const PassRange> runs, uint batch) : sums(size.x) {
         for (const PassRange run : runs)
-            for (uint first = run.begin; first < run.end; first += batch) parts.push_back({first, std::min(run.end, first + batch)});
+            for (uint first = run.begin; first < run.end; first += batch)
+                parts.push_back({first, std::min(run.end, first + batch)});
         for (auto& pixel : sums) pixel.resize(parts.size(), glm::dvec3(0));
     }
-    glm::dvec3 mean(uint pixel) const { return std::accumulate(sums[pixel].begin(), sums[pixel].end(), glm::dvec3(0)) / double(passCount); }
+    glm::dvec3 mean(uint pixel) const {
+        return std::accumulate(sums[pixel].begin(), sums[pixel].end(), glm::dvec3(0)) / double(passCount);
+    }
     glm::dvec3 variance(uint pixel, uint batch) const {
         glm::dvec3 squares{0};
         for (std::size_t i = 0; i < parts.size(); i++) {
@@ -69,7 +72,8 @@ Film filmOf(Expected& expected) {
         for (uint pixel = 0; pixel < size.x; pixel++) {
             const vec3 sample = sampleOf(pixel, random);
             expected.sums[pixel][expected.now] += glm::dvec3(sample);
-            for (uint c = 0; c < 3; c++) samples[(columns.COLUMN_DIRECT + c) * size.x + pixel] = sample[static_cast<int>(c)];
+            for (uint c = 0; c < 3; c++)
+                samples[(columns.COLUMN_DIRECT + c) * size.x + pixel] = sample[static_cast<int>(c)];
         }
         onDevice.upload(samples);
         film.begin(pass);
@@ -84,7 +88,9 @@ glm::dvec3 varianceIn(const Film& film, const std::vector<std::vector<PixelSum>>
     const std::vector<PassRange> runs = film.ranges();
     SpreadSum spread;
     for (std::size_t i = 0; i < runs.size(); i++)
-        spread.add(runs[i], batch, glm::dvec3(sums[i][pixel].sum.layers[LAYER_DIRECT]) + glm::dvec3(sums[i][pixel].rest), glm::dvec3(sums[i][pixel].fine), glm::dvec3(sums[i][pixel].coarse));
+        spread.add(runs[i], batch,
+                   glm::dvec3(sums[i][pixel].sum.layers[LAYER_DIRECT]) + glm::dvec3(sums[i][pixel].rest),
+                   glm::dvec3(sums[i][pixel].fine), glm::dvec3(sums[i][pixel].coarse));
     return spread.variance(batchesOf(runs, batch));
 }
 
@@ -98,7 +104,8 @@ TEST(Sums, OfAHundredThousandPasses) {
     const std::vector<Pixel> pixels = film.download();
 
     for (uint pixel = 0; pixel < size.x; pixel++) {
-        const glm::dvec3 mean = expected.mean(pixel), variance = expected.variance(pixel, batch), found = varianceIn(film, sums, pixel, batch);
+        const glm::dvec3 mean = expected.mean(pixel), variance = expected.variance(pixel, batch),
+                         found = varianceIn(film, sums, pixel, batch);
         double meanOff = 0, varianceOff = 0;
         for (int c = 0; c < 3; c++) {
             meanOff = std::max(meanOff, std::abs(double{pixels[pixel].mean.layers[LAYER_DIRECT][c]} / mean[c] - 1));

@@ -30,9 +30,7 @@ struct Aim {
 };
 
 // A function of direction that is not symmetric in anything.
-double weigh(dvec3 w) {
-    return 1 + 0.5 * w.x + 0.25 * w.y * w.z + 0.3 * w.x * w.x;
-}
+double weigh(dvec3 w) { return 1 + 0.5 * w.x + 0.25 * w.y * w.z + 0.3 * w.x * w.x; }
 
 bool covers(const Target& target, dvec3 position, dvec3 w) {
     const dvec3 d = dvec3(target.center) - position;
@@ -40,10 +38,11 @@ bool covers(const Target& target, dvec3 position, dvec3 w) {
     return distance2 <= radius2 || (along > 0 && distance2 - along * along <= radius2);
 }
 
-// The same integral over the hemisphere, on a grid that is uniform in solid angle. It errs at the rims of the cones alone,
-// by less than 1e-4 for the scenes below.
+// The same integral over the hemisphere, on a grid that is uniform in solid angle. It errs at the rims of the cones
+// alone, by less than 1e-4 for the scenes below.
 double bruteForce(const Aim& aim, int side = 1200) {
-    const dvec3 n = glm::normalize(dvec3(aim.normal)), t = glm::normalize(glm::cross(n, dvec3{0.3, 0.5, 0.8})), b = glm::cross(n, t);
+    const dvec3 n = glm::normalize(dvec3(aim.normal)), t = glm::normalize(glm::cross(n, dvec3{0.3, 0.5, 0.8})),
+                b = glm::cross(n, t);
     double sum = 0;
     for (int i = 0; i < side; i++)
         for (int j = 0; j < side; j++) {
@@ -75,7 +74,9 @@ Mean estimate(const Aim& aim, const char* kernel = "aim_at_targets") {
         const vec3 w{y};
         EXPECT_NEAR(glm::length(w), 1, 1e-5);
         EXPECT_TRUE(y.w >= 0 && std::isfinite(y.w));
-        if (y.w > 0) { EXPECT_GT(glm::dot(w, aim.normal), 0); }
+        if (y.w > 0) {
+            EXPECT_GT(glm::dot(w, aim.normal), 0);
+        }
         mean.add(y.w * weigh(w));
     }
     return mean;
@@ -92,12 +93,15 @@ TEST(Targets, MeansAreUnbiased) {
     const vec3 tilted = glm::normalize(vec3{0.4f, -0.3f, 0.8f});
     expectUnbiased({.targets = {{{1, 0, 2}, 0.8f}}}, "one");
     expectUnbiased({.normal = tilted, .targets = {{{1, 0, 2}, 0.8f}, {{1.3f, 0.2f, 2}, 0.7f}}}, "two that overlap");
-    expectUnbiased({.normal = tilted, .targets = {{{1, 0, 2}, 0.8f}, {{2, 0, 4}, 0.3f}}}, "one behind another, wholly covered");
+    expectUnbiased({.normal = tilted, .targets = {{{1, 0, 2}, 0.8f}, {{2, 0, 4}, 0.3f}}},
+                   "one behind another, wholly covered");
     expectUnbiased({.targets = {{{0.1f, 0, 0.2f}, 1}}}, "the light inside");
-    expectUnbiased({.normal = tilted, .targets = {{{0.1f, 0, 0.2f}, 1}, {{1, 0, 2}, 0.8f}}}, "the light inside one, beside another");
+    expectUnbiased({.normal = tilted, .targets = {{{0.1f, 0, 0.2f}, 1}, {{1, 0, 2}, 0.8f}}},
+                   "the light inside one, beside another");
     expectUnbiased({.targets = {{{0.1f, 0, 0.2f}, 1}, {{0, 0.1f, 0}, 0.5f}}}, "the light inside two");
     expectUnbiased({.targets = {{{2, 0, 0.1f}, 1}}}, "partly below the horizon");
-    expectUnbiased({.targets = {{{2, 0, -0.5f}, 1}, {{-1, 1, 1}, 0.9f}, {{0, 0, -3}, 1}}}, "one wholly below the horizon");
+    expectUnbiased({.targets = {{{2, 0, -0.5f}, 1}, {{-1, 1, 1}, 0.9f}, {{0, 0, -3}, 1}}},
+                   "one wholly below the horizon");
     expectUnbiased({.position = {10, 20, 30}, .targets = {{{10, 20, 31.0001f}, 1}}}, "the light almost at the sphere");
 }
 

@@ -1,47 +1,56 @@
-/// Coarse meshes with smooth normals against what they stand for: the light of a sphere, without stairs, for light samples and photons
-/// alike, and furnaces that lose none.
+/// Coarse meshes with smooth normals against what they stand for: the light of a sphere, without stairs, for light
+/// samples and photons alike, and furnaces that lose none.
 #include "render_support.h"
 #include "shared_layers.h"
-#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <numbers>
 #include <unistd.h>
 
 namespace vkpm {
 namespace {
 
-using nlohmann::json;
 using glm::uvec3;
+using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// An icosahedron, each face split into four `splits` times, with corners on the unit sphere, as an OBJ file with its normals.
+/// An icosahedron, each face split into four `splits` times, with corners on the unit sphere, as an OBJ file with its
+/// normals.
 fs::path ballFile(int splits) {
     const float g = (1 + std::sqrt(5.0f)) / 2;
-    std::vector<vec3> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    std::vector<uvec3> faces{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                             {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    std::vector<vec3> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                             {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<uvec3> faces{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                             {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (; splits > 0; splits--) {
         std::vector<uvec3> finer;
         for (const uvec3 f : faces) {
             const uint n = static_cast<uint>(points.size());
-            for (int i = 0; i < 3; i++) points.push_back(glm::normalize(points[f[i]]) + glm::normalize(points[f[(i + 1) % 3]]));
-            for (const uvec3 part : {uvec3{f.x, n, n + 2}, {f.y, n + 1, n}, {f.z, n + 2, n + 1}, {n, n + 1, n + 2}}) finer.push_back(part);
+            for (int i = 0; i < 3; i++)
+                points.push_back(glm::normalize(points[f[i]]) + glm::normalize(points[f[(i + 1) % 3]]));
+            for (const uvec3 part : {uvec3{f.x, n, n + 2}, {f.y, n + 1, n}, {f.z, n + 2, n + 1}, {n, n + 1, n + 2}})
+                finer.push_back(part);
         }
         faces = finer;
     }
-    const fs::path file = fs::temp_directory_path() / ("vkpm_ball_" + std::to_string(::getpid()) + "_" + std::to_string(faces.size()) + ".obj");
+    const fs::path file = fs::temp_directory_path() /
+                          ("vkpm_ball_" + std::to_string(::getpid()) + "_" + std::to_string(faces.size()) + ".obj");
     std::ofstream out(file);
     for (const vec3 point : points) {
         const vec3 p = glm::normalize(point);
         out << "v " << p.x << ' ' << p.y << ' ' << p.z << "\nvn " << p.x << ' ' << p.y << ' ' << p.z << '\n';
     }
-    for (const uvec3 f : faces) out << "f " << f.x + 1 << "//" << f.x + 1 << ' ' << f.y + 1 << "//" << f.y + 1 << ' ' << f.z + 1 << "//" << f.z + 1 << '\n';
+    for (const uvec3 f : faces)
+        out << "f " << f.x + 1 << "//" << f.x + 1 << ' ' << f.y + 1 << "//" << f.y + 1 << ' ' << f.z + 1 << "//"
+            << f.z + 1 << '\n';
     return file;
 }
 
 json ball(int splits, double scale = 1) {
-    return {{"name", "ball"}, {"type", "mesh"}, {"file", ballFile(splits).string()}, {"material", "white"}, {"smooth", true}, {"transform", {{{"scale", scale}}}}};
+    return {{"name", "ball"},      {"type", "mesh"}, {"file", ballFile(splits).string()},
+            {"material", "white"}, {"smooth", true}, {"transform", {{{"scale", scale}}}}};
 }
 
 const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.3, 1, 0.4));
@@ -49,22 +58,30 @@ const double irradiance = 3; // across the sun's rays
 
 /// A ball under a small sun, seen across its rays.
 Scene underSun(int splits) {
-    const double distance = 1000, radius = 1, radiance = irradiance / (std::numbers::pi * radius * radius / (distance * distance));
+    const double distance = 1000, radius = 1,
+                 radiance = irradiance / (std::numbers::pi * radius * radius / (distance * distance));
     return loadJson({{"camera", {{"origin", {3, 0.4, -2}}, {"target", {0, 0, 0}}, {"fieldOfView", 36}}},
                      {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.6}}}}},
-                     {"shapes", {ball(splits), {{"type", "sphere"}, {"center", {distance * toSun.x, distance * toSun.y, distance * toSun.z}}, {"radius", radius}, {"emission", radiance}}}}});
+                     {"shapes",
+                      {ball(splits),
+                       {{"type", "sphere"},
+                        {"center", {distance * toSun.x, distance * toSun.y, distance * toSun.z}},
+                        {"radius", radius},
+                        {"emission", radiance}}}}});
 }
 
-/// Mean of a layer's first channel, over pi times the irradiance, by the cosine to the sun of the shading normal: below the horizon, by
-/// the horizon, and three more parts.
+/// Mean of a layer's first channel, over pi times the irradiance, by the cosine to the sun of the shading normal: below
+/// the horizon, by the horizon, and three more parts.
 std::array<double, 5> byCosine(const std::vector<Pixel>& pixels, uint layer, bool expected) {
     const std::array<double, 5> bounds{0, 0.15, 0.4, 0.7, 1.01};
     std::array<double, 5> sums{}, counts{};
     for (const Pixel& pixel : pixels) {
         if (pixel.mean.covered < 1) continue;
         const double cosine = glm::dot(glm::normalize(glm::dvec3(pixel.mean.normal)), toSun);
-        const std::size_t bin = std::size_t(std::ranges::find_if(bounds, [&](double bound) { return cosine < bound; }) - bounds.begin());
-        sums[bin] += expected ? std::max(0.0, cosine) : double(pixel.mean.layers[layer].x) * std::numbers::pi / irradiance;
+        const std::size_t bin =
+            std::size_t(std::ranges::find_if(bounds, [&](double bound) { return cosine < bound; }) - bounds.begin());
+        sums[bin] +=
+            expected ? std::max(0.0, cosine) : double(pixel.mean.layers[layer].x) * std::numbers::pi / irradiance;
         counts[bin]++;
     }
     for (std::size_t i = 0; i < 5; i++) sums[i] /= std::max(counts[i], 1.0);
@@ -81,7 +98,9 @@ TEST(Terminator, LightSamplesSeeTheSphere) {
             if (pixel.mean.covered < 1) continue;
             seen++;
             const double cosine = std::max(0.0, glm::dot(glm::dvec3(pixel.mean.normal), toSun));
-            worst = std::max(worst, std::abs(double(pixel.mean.layers[LAYER_DIRECT].x) * std::numbers::pi / (0.6 * irradiance) - cosine));
+            worst = std::max(
+                worst,
+                std::abs(double(pixel.mean.layers[LAYER_DIRECT].x) * std::numbers::pi / (0.6 * irradiance) - cosine));
         }
         EXPECT_GT(seen, 1500u);
         EXPECT_LT(worst, 0.015) << splits; // of the light at noon; pixels on the horizon are half dark
@@ -97,7 +116,8 @@ TEST(Terminator, PhotonsSeeTheSphere) {
         for (uint seed = 0; seed < 8; seed++) {
             settings.seed = seed;
             const Rendered image = renderPasses(scene, settings, 1);
-            const auto found = byCosine(image.pixels, LAYER_INDIRECT, false), expected = byCosine(image.pixels, LAYER_INDIRECT, true);
+            const auto found = byCosine(image.pixels, LAYER_INDIRECT, false),
+                       expected = byCosine(image.pixels, LAYER_INDIRECT, true);
             EXPECT_LT(found[0], 0.02) << splits;
             for (std::size_t i = 1; i < 5; i++) ratios[i].push_back(found[i] / expected[i]);
         }
@@ -116,7 +136,8 @@ void expectFurnace(uint integrator, double tolerance) {
     room["emission"] = inner["emission"] = 0.5;
     room["twoSided"] = true;
     const Scene scene = loadJson({{"camera", {{"origin", {0, 0, 3}}, {"target", {0, 0, 0}}, {"fieldOfView", 60}}},
-                                  {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.5}}}}}, {"shapes", {room, inner}}});
+                                  {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.5}}}}},
+                                  {"shapes", {room, inner}}});
     Settings settings{.size = {48, 48}, .photons = 200'000, .integrator = integrator};
     settings.radius = 0.05f;
     settings.gatherRays = 1;
@@ -132,14 +153,22 @@ TEST(Terminator, FurnaceOfPhotons) { expectFurnace(INTEGRATOR_PHOTON, 0.02); }
 
 // In a room under a wide lamp, with a glass ball above: the same paths from either end.
 TEST(Terminator, LayersAgreeWithThePathTracer) {
-    const auto rectangle = [](json corner, json u, json v) { return json{{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", "grey"}}; };
+    const auto rectangle = [](json corner, json u, json v) {
+        return json{{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", "grey"}};
+    };
     json lamp = rectangle({-1.5, 2.9, -1.5}, {3, 0, 0}, {0, 0, 3});
     lamp["emission"] = 3;
     const json glass{{"type", "sphere"}, {"center", {0.8, 1.5, 0.4}}, {"radius", 0.6}, {"material", "glass"}};
-    const Scene scene = loadJson({{"camera", {{"origin", {2.5, 1, 2.7}}, {"target", {0, 0, 0}}, {"fieldOfView", 50}}},
-                                  {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.9}}}, {"grey", {{"type", "diffuse"}, {"albedo", 0.5}}}, {"glass", {{"type", "glass"}, {"ior", 1.5}}}}},
-                                  {"shapes", {rectangle({-3, -1, 3}, {6, 0, 0}, {0, 0, -6}), rectangle({-3, 3, -3}, {6, 0, 0}, {0, 0, 6}), rectangle({-3, -1, -3}, {6, 0, 0}, {0, 4, 0}),
-                                              rectangle({-3, -1, 3}, {0, 0, -6}, {0, 4, 0}), ball(0), lamp, glass}}});
+    const Scene scene =
+        loadJson({{"camera", {{"origin", {2.5, 1, 2.7}}, {"target", {0, 0, 0}}, {"fieldOfView", 50}}},
+                  {"materials",
+                   {{"white", {{"type", "diffuse"}, {"albedo", 0.9}}},
+                    {"grey", {{"type", "diffuse"}, {"albedo", 0.5}}},
+                    {"glass", {{"type", "glass"}, {"ior", 1.5}}}}},
+                  {"shapes",
+                   {rectangle({-3, -1, 3}, {6, 0, 0}, {0, 0, -6}), rectangle({-3, 3, -3}, {6, 0, 0}, {0, 0, 6}),
+                    rectangle({-3, -1, -3}, {6, 0, 0}, {0, 4, 0}), rectangle({-3, -1, 3}, {0, 0, -6}, {0, 4, 0}),
+                    ball(0), lamp, glass}}});
     Settings settings{.size = {48, 48}, .photons = 50'000, .causticPhotons = 50'000};
     settings.radius = settings.causticRadius = 0.03f;
     std::array<std::vector<double>, LAYER_COUNT> photon, path;
@@ -149,7 +178,8 @@ TEST(Terminator, LayersAgreeWithThePathTracer) {
         const Rendered a = renderPasses(scene, settings, 8);
         settings.integrator = INTEGRATOR_PATH;
         const Rendered b = renderPasses(scene, settings, 128);
-        for (uint layer = 0; layer < LAYER_COUNT; layer++) photon[layer].push_back(layerMean(a.pixels, layer)), path[layer].push_back(layerMean(b.pixels, layer));
+        for (uint layer = 0; layer < LAYER_COUNT; layer++)
+            photon[layer].push_back(layerMean(a.pixels, layer)), path[layer].push_back(layerMean(b.pixels, layer));
     }
     for (const uint layer : {LAYER_DIRECT, LAYER_CAUSTIC, LAYER_INDIRECT, LAYER_SPECULAR}) {
         const Estimate a = estimate(photon[layer]), b = estimate(path[layer]);

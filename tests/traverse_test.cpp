@@ -19,7 +19,8 @@ std::vector<Primitive> bumpySphere(int levels, float scale, uint seed) {
         std::vector<Primitive> finer;
         for (const Primitive& p : mesh) {
             const vec3 ab = glm::normalize(p.a + p.b), bc = glm::normalize(p.b + p.c), ca = glm::normalize(p.c + p.a);
-            for (const Primitive& part : {triangle(p.a, ab, ca), triangle(ab, p.b, bc), triangle(ca, bc, p.c), triangle(ab, bc, ca)})
+            for (const Primitive& part :
+                 {triangle(p.a, ab, ca), triangle(ab, p.b, bc), triangle(ca, bc, p.c), triangle(ab, bc, ca)})
                 finer.push_back(part);
         }
         mesh = std::move(finer);
@@ -28,7 +29,8 @@ std::vector<Primitive> bumpySphere(int levels, float scale, uint seed) {
     std::map<std::tuple<float, float, float>, float> heights;
     for (Primitive& p : mesh)
         for (vec3* v : {&p.a, &p.b, &p.c}) {
-            const auto [height, _] = heights.try_emplace({v->x + 0.0f, v->y + 0.0f, v->z + 0.0f}, random.between(0.7f, 1));
+            const auto [height, _] =
+                heights.try_emplace({v->x + 0.0f, v->y + 0.0f, v->z + 0.0f}, random.between(0.7f, 1));
             *v *= height->second * scale;
         }
     return mesh;
@@ -57,7 +59,8 @@ TEST(Traverse, ClosedMeshesAreWatertight) {
         const TestScene uploaded(scene);
         for (const vec3 origin : {vec3(0), scale * vec3{0.1f, -0.2f, 0.05f}, scale * random.cube(0.2f)}) {
             const auto rays = raysAtEdges(mesh, origin, 120'000, random);
-            const auto hits = map<Hit>("closest_hit", rays, {.hasSpheres = 0, .stackSize = scene.stackSize}, uploaded.context());
+            const auto hits =
+                map<Hit>("closest_hit", rays, {.hasSpheres = 0, .stackSize = scene.stackSize}, uploaded.context());
             for (std::size_t i = 0; i < hits.size(); i++) ASSERT_NE(hits[i].primitive, NONE) << scale << " " << i;
             triangles += static_cast<int>(hits.size());
         }
@@ -89,7 +92,8 @@ TEST(Traverse, CubesAreWatertight) {
                     d[axis] = sign;
                     rays.push_back({origin, d});
                 }
-        for (const Hit& hit : map<Hit>("closest_hit", rays, {.hasSpheres = 0, .stackSize = scene.stackSize}, uploaded.context()))
+        for (const Hit& hit :
+             map<Hit>("closest_hit", rays, {.hasSpheres = 0, .stackSize = scene.stackSize}, uploaded.context()))
             ASSERT_NE(hit.primitive, NONE);
     }
 }
@@ -103,7 +107,8 @@ Soup randomSoup(uint triangles, uint spheres, Random& random) {
     Soup soup{{}, triangles};
     for (uint i = 0; i < triangles; i++) {
         const vec3 center = random.cube(1);
-        soup.primitives.push_back(triangle(center + random.cube(0.3f), center + random.cube(0.3f), center + random.cube(0.3f)));
+        soup.primitives.push_back(
+            triangle(center + random.cube(0.3f), center + random.cube(0.3f), center + random.cube(0.3f)));
     }
     for (uint i = 0; i < spheres; i++) soup.primitives.push_back(sphere(random.cube(1), random.between(0.01f, 0.3f)));
     return soup;
@@ -153,7 +158,8 @@ void expectSameAsAll(const Soup& soup, const Features& features, uint seed) {
         Hit expected{std::numeric_limits<float>::max(), NONE, vec2(0)};
         bool blocks = false;
         for (uint p = 0; p < soup.primitives.size(); p++) {
-            if (distances[p * rays.size() + i] > 0 && distances[p * rays.size() + i] < expected.t) expected = {distances[p * rays.size() + i], p, vec2(0)};
+            if (distances[p * rays.size() + i] > 0 && distances[p * rays.size() + i] < expected.t)
+                expected = {distances[p * rays.size() + i], p, vec2(0)};
             blocks |= between[p * rays.size() + i] > 0 && between[p * rays.size() + i] < 1;
         }
         ASSERT_EQ(hits[i].primitive, expected.primitive) << i;
@@ -176,10 +182,13 @@ TEST(Traverse, HitsEqualThoseOfASearchThroughAll) {
 
 // A ray leaves out the triangle that it starts on, but not the sphere, whose other side it may meet.
 TEST(Traverse, RaysDoNotHitTheTriangleTheyLeave) {
-    const Scene scene = sceneOf({triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}), triangle({-1, -1, -1}, {1, -1, -1}, {0, 1, -1}), sphere({0, 0, -3}, 1)}, 2);
+    const Scene scene = sceneOf({triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0}),
+                                 triangle({-1, -1, -1}, {1, -1, -1}, {0, 1, -1}), sphere({0, 0, -3}, 1)},
+                                2);
     const TestScene uploaded(scene);
     const vec3 down{0, 0, -1};
-    const std::vector<StartCase> rays{{{0, 0, 1}, down, NONE}, {{0, 0, 1}, down, 0}, {{0, 0, 1}, down, 1}, {{0, 0, -3}, down, 2}};
+    const std::vector<StartCase> rays{
+        {{0, 0, 1}, down, NONE}, {{0, 0, 1}, down, 0}, {{0, 0, 1}, down, 1}, {{0, 0, -3}, down, 2}};
     const auto hits = map<Hit>("closest_from", rays, {.stackSize = scene.stackSize}, uploaded.context());
     for (std::size_t i = 0; i < rays.size(); i++) EXPECT_EQ(hits[i].primitive, (std::vector<uint>{0, 1, 0, 2})[i]) << i;
 }
@@ -189,22 +198,24 @@ TEST(Traverse, TiesGoToTheLowerPrimitive) {
     const Primitive t = triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
     const Scene scene = sceneOf(std::vector<Primitive>(40, t), 40);
     const TestScene uploaded(scene);
-    const auto hits = map<Hit>("closest_hit", std::vector<VectorPair>{{{0, 0, 1}, {0, 0, -1}}, {{0, 0, -1}, {0, 0, 2}}}, {.stackSize = scene.stackSize},
-                               uploaded.context());
+    const auto hits = map<Hit>("closest_hit", std::vector<VectorPair>{{{0, 0, 1}, {0, 0, -1}}, {{0, 0, -1}, {0, 0, 2}}},
+                               {.stackSize = scene.stackSize}, uploaded.context());
     for (const Hit& hit : hits) EXPECT_EQ(hit.primitive, 0u);
     EXPECT_EQ(hits[1].t, 0.5f);
 }
 
 // A square at a height over a tilted plane, halved along one of its diagonals.
 std::vector<Primitive> square(float side, float height, bool otherDiagonal, uint material) {
-    const vec3 n = glm::normalize(vec3{0.2f, 0.9f, -0.3f}), t = glm::normalize(glm::cross(n, vec3{1, 0, 0})), b = glm::cross(n, t), middle = vec3{3, -2, 5} + height * n;
-    std::array<vec3, 4> c{middle - side * (t + b), middle + side * (t - b), middle + side * (t + b), middle - side * (t - b)};
+    const vec3 n = glm::normalize(vec3{0.2f, 0.9f, -0.3f}), t = glm::normalize(glm::cross(n, vec3{1, 0, 0})),
+               b = glm::cross(n, t), middle = vec3{3, -2, 5} + height * n;
+    std::array<vec3, 4> c{middle - side * (t + b), middle + side * (t - b), middle + side * (t + b),
+                          middle - side * (t - b)};
     if (otherDiagonal) std::ranges::rotate(c, c.begin() + 1);
     return {{c[0], c[1], c[2], material, NONE, NONE}, {c[0], c[2], c[3], material, NONE, NONE}};
 }
 
-// Whichever comes first in the scene, rays from either side hit the opaque one of two faces at one place, and what leaves it does not
-// hit the glass.
+// Whichever comes first in the scene, rays from either side hit the opaque one of two faces at one place, and what
+// leaves it does not hit the glass.
 TEST(Traverse, OpaqueFacesHideTheGlassThatTouchesThem) {
     Random random(8);
     const uint opaque = 0, glass = 1;
@@ -235,7 +246,9 @@ TEST(Traverse, OpaqueFacesHideTheGlassThatTouchesThem) {
             const bool touches = height < 1e-3f;
             for (std::size_t i = 0; i < found.size(); i++) {
                 ASSERT_EQ(mesh[found[i].primitive].material, touches ? opaque : glass) << height << " " << i;
-                if (touches) { ASSERT_EQ(left[i].primitive, NONE) << height << " " << i; }
+                if (touches) {
+                    ASSERT_EQ(left[i].primitive, NONE) << height << " " << i;
+                }
             }
         }
 }

@@ -2,11 +2,11 @@
 #include "output/film_image.h"
 #include "render_support.h"
 #include "scene/camera_json.h"
+#include "shared_layers.h"
 #include "window/picture.h"
 #include "window/scene_watch.h"
 #include "window/tone.h"
 #include "window/view_camera.h"
-#include "shared_layers.h"
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -42,7 +42,9 @@ TEST(ViewCamera, NeverLooksAlongUp) {
         View view = start;
         for (int i = 0; i < 50; i++) {
             view = orbit(view, {0, step});
-            const auto right = [](const View& v) { return glm::normalize(glm::cross(dvec3(v.target) - dvec3(v.origin), dvec3(v.up))); };
+            const auto right = [](const View& v) {
+                return glm::normalize(glm::cross(dvec3(v.target) - dvec3(v.origin), dvec3(v.up)));
+            };
             ASSERT_GT(glm::dot(right(view), right(start)), 0.99);
         }
         const dvec3 forward = glm::normalize(dvec3(view.target) - dvec3(view.origin));
@@ -80,7 +82,8 @@ TEST(ViewCamera, PointsAreSeenWhereTheyAre) {
 
 // A scene that stands a million of its sizes away.
 Scene farScene(const fs::path& file) {
-    std::ofstream(file) << R"({"camera": {"origin": [2000000.5, 0, 7], "target": [2000000, 1, 0]}, "materials": {"m": {"type": "diffuse", "albedo": 1}},
+    std::ofstream(file)
+        << R"({"camera": {"origin": [2000000.5, 0, 7], "target": [2000000, 1, 0]}, "materials": {"m": {"type": "diffuse", "albedo": 1}},
         "shapes": [{"type": "sphere", "center": [2000000, 0, -300000], "radius": 1, "emission": 1, "material": "m"}]})";
     const Scene scene = loadScene(file);
     EXPECT_NE(scene.coordinates.origin.x, 0);
@@ -95,7 +98,10 @@ TEST(CameraJson, IsReadBackBitForBit) {
     Scene scene = shippedScene("diffuse_box");
     for (int i = 0; i < 200; i++) {
         if (i == 100) scene = farScene(file);
-        View view{{number(random), number(random), number(random) * 1e-6f}, {number(random) * 1e5f, number(random), number(random)}, {0, 0, 1}, 0};
+        View view{{number(random), number(random), number(random) * 1e-6f},
+                  {number(random) * 1e5f, number(random), number(random)},
+                  {0, 0, 1},
+                  0};
         view.fieldOfView = glm::radians(60 + 15 * number(random));
         view.coordinates = scene.view.coordinates;
         view = inWorldDigits(view);
@@ -106,8 +112,10 @@ TEST(CameraJson, IsReadBackBitForBit) {
 }
 
 TEST(CameraJson, TakesTheValueOfTheTopmostKeyAlone) {
-    const std::string text = R"({"about": "\"camera\": {", "a": [{"camera": {"x": 1}}], "camera" : {"up": "}", "b": {}} , "c": 2})";
-    const std::string expected = R"({"about": "\"camera\": {", "a": [{"camera": {"x": 1}}], "camera" : )" + cameraJson(start) + R"( , "c": 2})";
+    const std::string text =
+        R"({"about": "\"camera\": {", "a": [{"camera": {"x": 1}}], "camera" : {"up": "}", "b": {}} , "c": 2})";
+    const std::string expected =
+        R"({"about": "\"camera\": {", "a": [{"camera": {"x": 1}}], "camera" : )" + cameraJson(start) + R"( , "c": 2})";
     EXPECT_EQ(withCamera(text, start), expected);
     EXPECT_EQ(withCamera(R"({"shapes": []})", start), R"({"shapes": []})");
 }
@@ -129,7 +137,8 @@ TEST(Tone, LinearIsThePng) {
         colors.push_back({x, std::nextafter(x, 2.0f), std::nextafter(x, 0.0f)});
     }
     const std::vector<Pixel> pixels = pixelsOf(colors);
-    for (const float exposure : {0.0f, -2.3f, 5.0f}) EXPECT_TRUE(develop(pixels, {.exposure = exposure}) == develop(pixels, exposure));
+    for (const float exposure : {0.0f, -2.3f, 5.0f})
+        EXPECT_TRUE(develop(pixels, {.exposure = exposure}) == develop(pixels, exposure));
 }
 
 TEST(Tone, CurvesGoFromBlackToWhite) {

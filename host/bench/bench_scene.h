@@ -4,8 +4,8 @@
 
 namespace vkpm {
 
-/// A closed box of side 2, diffuse, with the camera inside and a light above; in it a lumpy torus of 2 x around x across
-/// triangles, or two balls if there are none.
+/// A closed box of side 2, diffuse, with the camera inside and a light above; in it a lumpy torus of 2 x around x
+/// across triangles, or two balls if there are none.
 Scene benchScene(uint around, uint across);
 
 } // namespace vkpm

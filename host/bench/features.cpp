@@ -16,7 +16,9 @@ constexpr uint passes = 5;
 
 ProgramCost renderOnce(const std::filesystem::path& file, const std::string& device, bool allFeatures) {
     const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     const Scene scene = loadScene(file);
     Settings settings = scene.settings;
     settings.allFeatures = allFeatures;
@@ -38,7 +40,7 @@ ProgramCost renderOnce(const std::filesystem::path& file, const std::string& dev
 }
 
 ProgramCost medians(const std::vector<ProgramCost>& costs) {
-    const auto of = [&](double ProgramCost::* member) {
+    const auto of = [&](double ProgramCost::*member) {
         std::vector<double> values;
         for (const ProgramCost& cost : costs) values.push_back(cost.*member);
         return median(values);

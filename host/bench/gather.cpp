@@ -31,11 +31,13 @@ public:
           queries(gpu, "bench queries", gathers.queries), samples(gpu, "bench samples", 3 * gathers.queries.size()),
           all(gpu, gathers.queries.size()), grid(gpu, "bench photons"),
           map(grid.build(photons, static_cast<uint>(photons.size()), gathers.radius, 1)),
-          gather(gpu, "gather", {.hasRadiusField = 0, .hasNearest = 0, .densityKernel = DENSITY_KERNEL_CONSTANT, .hasBias = 0}) {}
+          gather(gpu, "gather",
+                 {.hasRadiusField = 0, .hasNearest = 0, .densityKernel = DENSITY_KERNEL_CONSTANT, .hasBias = 0}) {}
 
     void run() {
         Recording recording(gpu);
-        recording.run(gather, queries.size(), {map, queries, samples, all.queue, all.list, static_cast<uint>(queries.size())});
+        recording.run(gather, queries.size(),
+                      {map, queries, samples, all.queue, all.list, static_cast<uint>(queries.size())});
         recording.submit();
     }
 

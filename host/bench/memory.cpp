@@ -44,7 +44,8 @@ Measurement measureCopy(Gpu& gpu, const std::string& name, const std::string& ag
         },
         [&] {
         return wallSeconds([&] {
-            onAllThreads(copiedPhotons, [&](std::size_t begin, std::size_t end) { host(photons, arranged, begin, end); });
+            onAllThreads(copiedPhotons,
+                         [&](std::size_t begin, std::size_t end) { host(photons, arranged, begin, end); });
         });
     });
     return asRate(name, against, "B/s", 2.0 * sizeof(Photon) * copiedPhotons, times);

@@ -42,7 +42,8 @@ Measurement measureShadow(Gpu& gpu, const Scene& scene, const UploadedScene& upl
     const Kernel<ShadowArgs> shadow(gpu, "shadow", sceneFeatures(scene, scene.settings));
     const auto kernel = [&] {
         Recording recording(gpu);
-        recording.run(shadow, rays.size(), {uploaded.address, shadowRays, samples, all.queue, all.list, static_cast<uint>(rays.size())});
+        recording.run(shadow, rays.size(),
+                      {uploaded.address, shadowRays, samples, all.queue, all.list, static_cast<uint>(rays.size())});
         recording.submit();
     };
     std::vector<vec3> direct(rays.size());

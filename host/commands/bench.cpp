@@ -58,14 +58,18 @@ static void printTable(const nlohmann::ordered_json& about, const std::vector<Me
 
 static nlohmann::ordered_json gainJson(const FeatureGain& gain) {
     const auto json = [](const ProgramCost& c) {
-        return nlohmann::ordered_json{{"setup_seconds", c.setup}, {"first_pass_seconds", c.firstPass}, {"pass_seconds", c.pass}, {"device_bytes", c.bytes}};
+        return nlohmann::ordered_json{{"setup_seconds", c.setup},
+                                      {"first_pass_seconds", c.firstPass},
+                                      {"pass_seconds", c.pass},
+                                      {"device_bytes", c.bytes}};
     };
     return {{"scene", gain.scene}, {"specialised", json(gain.special)}, {"general", json(gain.general)}};
 }
 
 static void printGain(const FeatureGain& gain) {
     const auto row = [&](const char* what, double special, double general, const char* unit) {
-        fmt::print("{:<14} {:<24} {:>9.3f} {:>9.3f} {:<4} {:>7.2f}\n", gain.scene, what, special, general, unit, special / general);
+        fmt::print("{:<14} {:<24} {:>9.3f} {:>9.3f} {:<4} {:>7.2f}\n", gain.scene, what, special, general, unit,
+                   special / general);
     };
     row("setup", gain.special.setup, gain.general.setup, "s");
     row("setup and first pass", gain.special.firstPass, gain.general.firstPass, "s");
@@ -76,7 +80,8 @@ static void printGain(const FeatureGain& gain) {
 static int benchFeatures(const BenchOptions& options) {
     switchOffShaderCaches();
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    if (!options.json) fmt::print("{:<14} {:<24} {:>9} {:>9} {:<4} {:>7}\n", "scene", "", "special", "general", "", "ratio");
+    if (!options.json)
+        fmt::print("{:<14} {:<24} {:>9} {:>9} {:<4} {:>7}\n", "scene", "", "special", "general", "", "ratio");
     for (const auto& scene : options.scenes) {
         const FeatureGain gain = measureFeatures(scene, options.device);
         if (!options.json) printGain(gain);

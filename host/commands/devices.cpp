@@ -24,9 +24,11 @@ static nlohmann::ordered_json describe(std::size_t index, const DeviceInfo& info
 
 static void printDevice(const nlohmann::ordered_json& device) {
     fmt::print("{}: {}\n   driver {}, Vulkan {}, subgroups of {}, {:.1f} GiB\n", device["index"].get<int>(),
-               device["name"].get<std::string>(), device["driver"].get<std::string>(), device["vulkan"].get<std::string>(),
-               device["subgroup_size"].get<int>(), device["memory_bytes"].get<double>() / 1073741824);
-    for (const auto& lack : device["missingRequirements"]) fmt::print("   missingRequirements {}\n", lack.get<std::string>());
+               device["name"].get<std::string>(), device["driver"].get<std::string>(),
+               device["vulkan"].get<std::string>(), device["subgroup_size"].get<int>(),
+               device["memory_bytes"].get<double>() / 1073741824);
+    for (const auto& lack : device["missingRequirements"])
+        fmt::print("   missingRequirements {}\n", lack.get<std::string>());
     for (const auto& test : device["audit"])
         fmt::print("   audit: {}: {}\n", test["test"].get<std::string>(),
                    test["passed"].get<bool>() ? "passed" : "FAILED: " + test["found"].get<std::string>());
@@ -37,7 +39,8 @@ int execute(const DevicesOptions& options) {
     const std::vector<DeviceInfo> infos = listDevices();
     for (std::size_t i = 0; i < infos.size(); i++) devices.push_back(describe(i, infos[i]));
     if (options.json) fmt::print("{}\n", devices.dump(2));
-    else for (const auto& device : devices) printDevice(device);
+    else
+        for (const auto& device : devices) printDevice(device);
     if (infos.empty()) throw GpuError("no Vulkan device; install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers)");
     return 0;
 }

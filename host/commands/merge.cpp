@@ -1,10 +1,10 @@
 /// vkpm merge: the parts of one render become one file.
 #include "commands/commands.h"
 #include "gpu/audit.h"
+#include "job/render_file.h"
 #include "output/atomic_file.h"
 #include "output/film_runs.h"
 #include "output/used_files.h"
-#include "job/render_file.h"
 #include "render/features.h"
 #include "scene/identity.h"
 #include <algorithm>
@@ -18,7 +18,8 @@ static void requireOneRender(const std::vector<RenderFile>& parts) {
     for (const RenderFile& part : parts) {
         const std::vector<std::string> lines = differences(part.header.attributes, parts[0].header.attributes);
         if (!lines.empty())
-            throw InputError(fmt::format("{}: is a part of another render than {}; what differs (here in the former, there in the latter):\n  {}",
+            throw InputError(fmt::format("{}: is a part of another render than {}; what differs (here in the former, "
+                                         "there in the latter):\n  {}",
                                          part.path.string(), parts[0].path.string(), fmt::join(lines, "\n  ")));
         if (part.header.size != parts[0].header.size)
             throw InputError(fmt::format("{}: its size is not that of {}", part.path.string(), parts[0].path.string()));
@@ -38,19 +39,23 @@ static void requireAdjacent(const std::vector<RenderFile>& parts, bool part) {
         const PassRange before = parts[i - 1].passes();
         const PassRange now = parts[i].passes();
         const std::string names = fmt::format("{} and {}", parts[i - 1].path.string(), parts[i].path.string());
-        if (now.begin < before.end) throw InputError(fmt::format("{} both have {}; give one of them", names, describe(PassRange{now.begin, std::min(now.end, before.end)})));
+        if (now.begin < before.end)
+            throw InputError(fmt::format("{} both have {}; give one of them", names,
+                                         describe(PassRange{now.begin, std::min(now.end, before.end)})));
         if (now.begin > before.end) throw missing({before.end, now.begin}, "between " + names);
     }
 }
 
-/// Refuses to replace a file that has more than the parts have, as when OUT was forgotten and the first part took its place.
+/// Refuses to replace a file that has more than the parts have, as when OUT was forgotten and the first part took its
+/// place.
 static void requireNothingLost(const MergeOptions& options, const std::vector<RenderFile>& parts) {
     std::vector<UsedFile> read;
     for (const RenderFile& part : parts) read.push_back({"a part", part.path});
     requireApart(std::array{UsedFile{"the PNG beside the result", pngBeside(options.output)}}, read);
     if (!std::filesystem::is_regular_file(options.output)) return;
     const auto refuse = [&](const std::string& found) {
-        throw InputError(fmt::format("{}: is to be replaced by the result, and is {}; allowed: a file that is not there yet, or that holds some of these parts; "
+        throw InputError(fmt::format("{}: is to be replaced by the result, and is {}; allowed: a file that is not "
+                                     "there yet, or that holds some of these parts; "
                                      "the result comes first, as in vkpm merge OUT.exr PART.exr...",
                                      options.output.string(), found));
     };
@@ -61,9 +66,11 @@ static void requireNothingLost(const MergeOptions& options, const std::vector<Re
         refuse("no render");
     }
     const PassRange held = there.passes();
-    const bool same = differences(there.header.attributes, parts[0].header.attributes).empty() && there.header.size == parts[0].header.size;
+    const bool same = differences(there.header.attributes, parts[0].header.attributes).empty() &&
+                      there.header.size == parts[0].header.size;
     if (!same) refuse("another render than the parts are of");
-    if (held.begin < parts.front().passes().begin || held.end > parts.back().passes().end) refuse(fmt::format("a render that is not among the parts: it has {}", describe(held)));
+    if (held.begin < parts.front().passes().begin || held.end > parts.back().passes().end)
+        refuse(fmt::format("a render that is not among the parts: it has {}", describe(held)));
 }
 
 /// The attributes of the whole: those of the first part, with sums of what adds up and all devices.

@@ -104,7 +104,9 @@ inline uint layersOf(const std::string& option, const std::string& text) {
     for (size_t begin = 0; begin <= text.size();) {
         const size_t end = std::min(text.find(',', begin), text.size());
         const auto found = std::ranges::find(layerNames, text.substr(begin, end - begin));
-        if (found == layerNames.end()) refuse(option, text, fmt::format("all, or names with commas between them, of {}", fmt::join(layerNames, ", ")));
+        if (found == layerNames.end())
+            refuse(option, text,
+                   fmt::format("all, or names with commas between them, of {}", fmt::join(layerNames, ", ")));
         layers |= 1u << (found - layerNames.begin());
         begin = end + 1;
     }
@@ -118,7 +120,8 @@ inline PassRange passRangeOf(const std::string& option, const std::string& text)
     const double end = colon < text.size() ? number(text.substr(colon + 1)) : -1;
     const bool whole = begin == std::floor(begin) && end == std::floor(end);
     if (!whole || begin < 0 || end <= begin || end > MAX_COUNT)
-        refuse(option, text, fmt::format("FIRST:END, whole numbers, FIRST below END, END at most {}, such as 0:16", MAX_COUNT));
+        refuse(option, text,
+               fmt::format("FIRST:END, whole numbers, FIRST below END, END at most {}, such as 0:16", MAX_COUNT));
     return {static_cast<uint>(begin), static_cast<uint>(end)};
 }
 
@@ -226,7 +229,8 @@ public:
     }
 
     /// Arguments without a name.
-    void files(const std::string& name, const std::string& help, std::function<void(const std::vector<std::string>&)> take) {
+    void files(const std::string& name, const std::string& help,
+               std::function<void(const std::vector<std::string>&)> take) {
         app.add_option(name, fileNames, help)->type_name("FILE");
         positional = [=, this] { take(fileNames); };
     }

@@ -22,11 +22,13 @@ const Words PROGRAMS{{"scene", 0}, {"all", 1}};
 const Words FRESNELS{{"exact", 0}, {"schlick", 1}};
 
 void addDevice(Parser& parser, std::string& device) {
-    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)", [&](auto&, auto& value) { device = value; });
+    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)",
+               [&](auto&, auto& value) { device = value; });
 }
 
 void addMachine(Parser& parser, RenderOptions& options) {
-    parser.words("--features", PROGRAMS, "compile kernels for this scene, or with everything switched on (default scene)",
+    parser.words("--features", PROGRAMS,
+                 "compile kernels for this scene, or with everything switched on (default scene)",
                  [&](uint value) { options.allFeatures = value; });
     addDevice(parser, options.device);
 }
@@ -41,12 +43,16 @@ void addFiles(Parser& parser, RenderOptions& options) {
                [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
     parser.add("--report", "FOLDER", "error against run time while rendering: error.csv, and a page index.html",
                [&](auto&, auto& value) { options.report = value; });
-    parser.add("--reference", "FILE.exr", "what --report measures the error against; without it, the render's own estimates",
+    parser.add("--reference", "FILE.exr",
+               "what --report measures the error against; without it, the render's own estimates",
                [&](auto&, auto& value) { options.reference = value; });
     parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
                [&](auto& name, auto& value) { options.log = outputOf(name, value); });
     parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
-    parser.flag("--no-resume", "save the picture and its layers alone, in half the bytes, without the sums from which --resume and merge go on", options.withoutSums);
+    parser.flag("--no-resume",
+                "save the picture and its layers alone, in half the bytes, without the sums from which --resume and "
+                "merge go on",
+                options.withoutSums);
     parser.flag("--half", "save layers, but for depth, as 16-bit floats", options.half);
     parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)",
                [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
@@ -61,9 +67,11 @@ void addImage(Parser& parser, RenderOptions& options, const Settings& defaults, 
     parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y),
                [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
     count("--passes", fmt::format("passes over the whole image (default {})", passes), 1, MAX_COUNT, options.passes);
-    parser.add("--time", "SECONDS", "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
+    parser.add("--time", "SECONDS",
+               "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
                [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
-    parser.add("--target-error", "E", "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
+    parser.add("--target-error", "E",
+               "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
                [&](auto& name, auto& value) { options.targetError = errorOf(name, value); });
     parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge",
                [&](auto& name, auto& value) { options.passRange = passRangeOf(name, value); });
@@ -78,7 +86,9 @@ void addImage(Parser& parser, RenderOptions& options, const Settings& defaults, 
     parser.words("--fresnel", FRESNELS,
                  fmt::format("reflectance of glass (default {})", wordOf(FRESNELS, defaults.schlick)),
                  [&](uint value) { options.schlick = value; });
-    parser.add("--layers", "A,B,...", fmt::format("render only these; beauty is the sum of the lights' parts among them: {} (default all)", fmt::join(layerNames, ", ")),
+    parser.add("--layers", "A,B,...",
+               fmt::format("render only these; beauty is the sum of the lights' parts among them: {} (default all)",
+                           fmt::join(layerNames, ", ")),
                [&](auto& name, auto& value) { options.layers = layersOf(name, value); });
 }
 
@@ -93,13 +103,17 @@ void addPhotons(Parser& parser, RenderOptions& options, const Settings& defaults
     count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
     count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
           options.causticPhotons);
-    parser.add("--gather-rays", "N", fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", maxGatherRays, defaults.gatherRays),
+    parser.add("--gather-rays", "N",
+               fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", maxGatherRays,
+                           defaults.gatherRays),
                [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, maxGatherRays); });
     radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
     radius("--caustic-radius", "the same for caustics", options.causticRadius);
-    count("--nearest", fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
+    count("--nearest",
+          fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
           options.nearest);
-    parser.add("--alpha", "A", fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
+    parser.add("--alpha", "A",
+               fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
                [&](auto& name, auto& value) { options.alpha = alphaOf(name, value); });
     parser.words("--kernel", KERNELS,
                  fmt::format("of the density estimate (default {})", wordOf(KERNELS, defaults.kernel)),
@@ -128,16 +142,22 @@ Exit codes:
   130  interrupted (Ctrl-C or SIGTERM); everything rendered so far is saved)";
 
 void requireRender(RenderOptions& options) {
-    if (options.scene.empty()) throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE", options.isEndless ? " view" : ""));
+    if (options.scene.empty())
+        throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE",
+                                     options.isEndless ? " view" : ""));
     if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
     requireFilesApart(options, std::array{options.scene});
     if (options.passRange && options.passes && options.passRange->end > *options.passes)
         refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
                fmt::format("passes below the {} of --passes", *options.passes));
-    if (options.reference && !options.report) refuse("--reference", options.reference->string(), "only with --report FOLDER, which shows what is measured");
+    if (options.reference && !options.report)
+        refuse("--reference", options.reference->string(), "only with --report FOLDER, which shows what is measured");
     if (options.integrator) requirePhotonMap(options, *options.integrator);
     const auto needsSums = [&](const char* name, bool given) {
-        if (given && options.withoutSums) throw InputError(fmt::format("{}: found with --no-resume; allowed: one of the two, since it needs the sums that --no-resume leaves out", name));
+        if (given && options.withoutSums)
+            throw InputError(fmt::format("{}: found with --no-resume; allowed: one of the two, since it needs the sums "
+                                         "that --no-resume leaves out",
+                                         name));
     };
     needsSums("--resume", options.resume);
     needsSums("--checkpoint", options.checkpoint.has_value());
@@ -154,7 +174,8 @@ template <class Asked> Options parseRender(std::span<const std::string> argument
     Asked options;
     const bool window = std::is_same_v<Asked, ViewOptions>;
     options.isEndless = window;
-    Parser parser(window ? "Render a scene in a window, progressively." : "vkpm, a photon mapping renderer in Vulkan compute.",
+    Parser parser(window ? "Render a scene in a window, progressively."
+                         : "vkpm, a photon mapping renderer in Vulkan compute.",
                   window ? "vkpm view --scene FILE [options]" : "vkpm [render] --scene FILE [options]");
     const Settings defaults;
     addFiles(parser, options);
@@ -174,23 +195,27 @@ Options parsePlan(std::span<const std::string> arguments) {
     const Settings defaults;
     Parser parser("Say what a scene needs, what is left out and why, and how much memory it takes. Renders one pass.",
                   "vkpm plan --scene FILE [options]");
-    parser.add("--scene", "FILE", "scene (JSON); required", [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("--scene", "FILE", "scene (JSON); required",
+               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
     parser.flag("--json", "as JSON", options.json);
     addImage(parser, options, defaults, std::to_string(defaults.passes));
     addPhotons(parser, options, defaults);
     parser.group("Machine");
     addMachine(parser, options);
     if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
-    if (options.scene.empty()) throw InputError("--scene: missing; allowed: a scene file, as in vkpm plan --scene FILE");
+    if (options.scene.empty())
+        throw InputError("--scene: missing; allowed: a scene file, as in vkpm plan --scene FILE");
     return options;
 }
 
 Options parseCompare(std::span<const std::string> arguments) {
     CompareOptions options;
-    Parser parser("Measure how far an image is off a reference, layer by layer. Needs no device.", "vkpm compare IMAGE REFERENCE [--json]");
+    Parser parser("Measure how far an image is off a reference, layer by layer. Needs no device.",
+                  "vkpm compare IMAGE REFERENCE [--json]");
     parser.files("files", "the image, then its reference (EXR)", [&](auto& values) {
         if (values.size() != 2)
-            throw InputError(fmt::format("compare: found {} file{}; allowed: two, as in vkpm compare IMAGE REFERENCE", values.size(), values.size() == 1 ? "" : "s"));
+            throw InputError(fmt::format("compare: found {} file{}; allowed: two, as in vkpm compare IMAGE REFERENCE",
+                                         values.size(), values.size() == 1 ? "" : "s"));
         options.image = values[0];
         options.reference = values[1];
     });
@@ -202,9 +227,11 @@ Options parseCompare(std::span<const std::string> arguments) {
 
 Options parseMerge(std::span<const std::string> arguments) {
     MergeOptions options;
-    Parser parser("Put parts of one render, made with --pass-range, together.", "vkpm merge OUT.exr PART.exr... [options]");
+    Parser parser("Put parts of one render, made with --pass-range, together.",
+                  "vkpm merge OUT.exr PART.exr... [options]");
     parser.files("files", "the merged image, then its parts in any order", [&](auto& values) {
-        if (values.size() < 2) throw InputError("merge: found fewer than two files; allowed: vkpm merge OUT.exr PART.exr...");
+        if (values.size() < 2)
+            throw InputError("merge: found fewer than two files; allowed: vkpm merge OUT.exr PART.exr...");
         options.output = exrOf("OUT.exr", values[0]);
         options.parts.assign(values.begin() + 1, values.end());
     });
@@ -229,10 +256,14 @@ Options parseBench(std::span<const std::string> arguments) {
     parser.flag("--json", "as JSON", options.json);
     parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)",
                [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
-    parser.flag("--features", "start-up, time and memory of the program for each scene against the general one's", options.features);
+    parser.flag("--features", "start-up, time and memory of the program for each scene against the general one's",
+                options.features);
     parser.files("files", "scenes for --features", [&](auto& values) {
-        if (options.features && values.empty()) throw InputError("bench: --features: found no scene; allowed: one or more, as in vkpm bench --features scenes/box.json");
-        if (!options.features && !values.empty()) throw InputError(fmt::format("bench: found \"{}\"; allowed: --scene {}", values[0], values[0]));
+        if (options.features && values.empty())
+            throw InputError(
+                "bench: --features: found no scene; allowed: one or more, as in vkpm bench --features scenes/box.json");
+        if (!options.features && !values.empty())
+            throw InputError(fmt::format("bench: found \"{}\"; allowed: --scene {}", values[0], values[0]));
         for (const std::string& value : values) options.scenes.push_back(sceneOf("--features", value));
     });
     addDevice(parser, options.device);
@@ -241,8 +272,13 @@ Options parseBench(std::span<const std::string> arguments) {
 }
 
 const std::pair<const char*, Options (*)(std::span<const std::string>)> PARSERS[]{
-    {"render", parseRender<RenderOptions>}, {"view", parseRender<ViewOptions>}, {"plan", parsePlan}, {"compare", parseCompare},
-    {"merge", parseMerge}, {"devices", parseDevices}, {"bench", parseBench}};
+    {"render", parseRender<RenderOptions>},
+    {"view", parseRender<ViewOptions>},
+    {"plan", parsePlan},
+    {"compare", parseCompare},
+    {"merge", parseMerge},
+    {"devices", parseDevices},
+    {"bench", parseBench}};
 
 } // namespace
 
@@ -253,7 +289,8 @@ static Options parseCommand(const std::vector<std::string>& words) {
         if (words[0] == name) return parse(std::span(words).subspan(1));
         known.push_back(name);
     }
-    const std::string help = fs::path(words[0]).has_extension() ? "; a scene is given as --scene " + words[0] : suggestion(words[0], known);
+    const std::string help =
+        fs::path(words[0]).has_extension() ? "; a scene is given as --scene " + words[0] : suggestion(words[0], known);
     throw InputError(fmt::format("found command \"{}\"; allowed: {}{}", words[0], fmt::join(known, ", "), help));
 }
 

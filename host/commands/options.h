@@ -36,7 +36,8 @@ struct BenchOptions {
     bool json = false;
 };
 
-using Options = std::variant<PrintOptions, VersionOptions, RenderOptions, ViewOptions, PlanOptions, CompareOptions, MergeOptions, DevicesOptions, BenchOptions>;
+using Options = std::variant<PrintOptions, VersionOptions, RenderOptions, ViewOptions, PlanOptions, CompareOptions,
+                             MergeOptions, DevicesOptions, BenchOptions>;
 
 /// Reads the command line; main's arguments, the program's name first. Throws InputError with the option, what was
 /// found and what is allowed.

@@ -3,8 +3,8 @@
 #include "gpu/audit.h"
 #include "gpu/spirv_size.h"
 #include "job/memory_advice.h"
-#include "render/renderer.h"
 #include "render/explain.h"
+#include "render/renderer.h"
 #include "shared_film.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,14 +24,17 @@ static Json kernelsJson(const Gpu& gpu, const Features& features) {
     Json list = Json::array();
     for (const auto& [name, time] : gpu.times) {
         if (name == "clear" || name == "audit" || name == "staging") continue;
-        list.push_back({{"name", name}, {"instructions", instructionCount(name, features)}, {"general_instructions", instructionCount(name, Features{})}});
+        list.push_back({{"name", name},
+                        {"instructions", instructionCount(name, features)},
+                        {"general_instructions", instructionCount(name, Features{})}});
     }
     return list;
 }
 
 /// Memory after a pass and a save, and the film's further runs.
 static Json memoryJson(const Gpu& gpu, const Features& features, const Settings& settings) {
-    const std::uint64_t film = std::uint64_t(settings.size.x) * settings.size.y * Columns(features).SUM_COLUMNS * sizeof(float);
+    const std::uint64_t film =
+        std::uint64_t(settings.size.x) * settings.size.y * Columns(features).SUM_COLUMNS * sizeof(float);
     const std::uint64_t more = (maxRuns(settings.passes) - 1) * film;
     Json buffers = Json::object();
     for (const auto& [name, bytes] : gpu.memory)
@@ -43,13 +46,17 @@ static void printPlan(const Json& plan) {
     for (const bool needed : {true, false}) {
         fmt::print("{}:\n", needed ? "Needed" : "Left out");
         for (const auto& f : plan["features"])
-            if (f["needed"] == needed) fmt::print("  {:<20} {}\n", f["name"].get<std::string>(), f["reason"].get<std::string>());
+            if (f["needed"] == needed)
+                fmt::print("  {:<20} {}\n", f["name"].get<std::string>(), f["reason"].get<std::string>());
     }
     fmt::print("\nKernels, in SPIR-V instructions for this scene and for any:\n");
     for (const auto& k : plan["kernels"])
-        fmt::print("  {:<20} {:6} {:6}\n", k["name"].get<std::string>(), k["instructions"].get<int>(), k["general_instructions"].get<int>());
-    fmt::print("\nMemory on the device: {:.1f} MiB at most, by buffer:\n", plan["memory"]["device_bytes"].get<double>() / 1048576);
-    for (const auto& [name, bytes] : plan["memory"]["buffers"].items()) fmt::print("  {:<28} {:8.1f} MiB\n", name, bytes.get<double>() / 1048576);
+        fmt::print("  {:<20} {:6} {:6}\n", k["name"].get<std::string>(), k["instructions"].get<int>(),
+                   k["general_instructions"].get<int>());
+    fmt::print("\nMemory on the device: {:.1f} MiB at most, by buffer:\n",
+               plan["memory"]["device_bytes"].get<double>() / 1048576);
+    for (const auto& [name, bytes] : plan["memory"]["buffers"].items())
+        fmt::print("  {:<28} {:8.1f} MiB\n", name, bytes.get<double>() / 1048576);
 }
 
 int execute(const PlanOptions& options) {

@@ -1,18 +1,20 @@
 /// vkpm --scene: a render without a window.
 #include "commands/commands.h"
 #include "gpu/audit.h"
-#include "job/memory_advice.h"
-#include "output/atomic_file.h"
 #include "interrupt.h"
+#include "job/memory_advice.h"
+#include "job/render_job.h"
+#include "output/atomic_file.h"
 #include "output/messages.h"
 #include "output/progress.h"
-#include "job/render_job.h"
 
 namespace vkpm {
 
 static void renderPasses(RenderJob& job, const RenderOptions& options) {
     const PassRange passes = job.passesWanted();
-    Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY), job.restoredPasses(), options.targetError.value_or(0)}, options.quiet);
+    Progress progress({passes.end == NONE ? NONE : passes.end - passes.begin, options.seconds.value_or(INFINITY),
+                       job.restoredPasses(), options.targetError.value_or(0)},
+                      options.quiet);
     onInterrupt("interrupted: finishing this pass, then saving; once more stops at once", false);
     while (!job.done()) {
         job.renderPass();

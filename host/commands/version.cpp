@@ -15,7 +15,8 @@ int execute(const VersionOptions&) {
     } catch (const std::exception& error) { // the rest is no less true
         driver = fmt::format("none: {}", error.what());
     }
-    fmt::print("vkpm {}\ncommit {}\ndriver {}\n", VKPM_VERSION, commit, driver); // at once, for readers that stop after the first line
+    fmt::print("vkpm {}\ncommit {}\ndriver {}\n", VKPM_VERSION, commit,
+               driver); // at once, for readers that stop after the first line
     return 0;
 }
 

@@ -8,13 +8,15 @@ namespace vkpm {
 
 const double patience = 0.4;     // seconds to wait for the size of the film, that the window takes
 const uvec2 usualSize{512, 512}; // if that takes longer
-const uint minHeight = 690;    // for the panel
+const uint minHeight = 690;      // for the panel
 
 /// Until the window is closed, the program interrupted or the thread has ended.
-static void show(const RenderOptions& options, RenderThread& thread, EventLog& log, Window& window, Clock::time_point start) {
+static void show(const RenderOptions& options, RenderThread& thread, EventLog& log, Window& window,
+                 Clock::time_point start) {
     const uvec2 film = options.size ? *options.size : thread.waitForSize(patience).value_or(usualSize);
     if (thread.ended()) return;
-    window.open(fmt::format("{} - vkpm", options.scene.filename().string()), {film.x + uint(panelWidth(1)), std::max(film.y, minHeight)});
+    window.open(fmt::format("{} - vkpm", options.scene.filename().string()),
+                {film.x + uint(panelWidth(1)), std::max(film.y, minHeight)});
     Viewer(options, window, thread, log, start).run();
     window.hide();
 }

@@ -47,10 +47,12 @@ std::vector<AuditResult> auditDriver(Gpu& gpu) {
                             filled(threads, [&](uint i) { return sum + i; })));
     results.push_back(check("divergent loops run to their end", runAudit(gpu, AUDIT_DIVERGENT, threads),
                             filled(threads, [&](uint i) { return expectedSum(trips - 16 * i); })));
-    results.push_back(check("barriers order shared memory", runAudit(gpu, AUDIT_SHARED, threads),
-                            filled(threads, [](uint i) { return (i / GROUP * GROUP + GROUP - 1 - i % GROUP) * 3 + 1; })));
+    results.push_back(
+        check("barriers order shared memory", runAudit(gpu, AUDIT_SHARED, threads),
+              filled(threads, [](uint i) { return (i / GROUP * GROUP + GROUP - 1 - i % GROUP) * 3 + 1; })));
     const uint groups = 65'535 + 3;
-    results.push_back(check("dispatches of more than 65,535 groups reach every index", runAudit(gpu, AUDIT_WIDE, groups, GROUP),
+    results.push_back(check("dispatches of more than 65,535 groups reach every index",
+                            runAudit(gpu, AUDIT_WIDE, groups, GROUP),
                             filled(groups, [](uint i) { return (i * GROUP + GROUP - 1) ^ 0x5bd1e995u; })));
     results.push_back(check("single precision keeps infinities and small numbers", runAudit(gpu, AUDIT_FLOAT, 4),
                             {0x7f800000u, 0xff800000u, 0x3f800000u, 0x00800000u}));
@@ -62,10 +64,11 @@ void requireSoundDriver(Gpu& gpu) {
     for (const AuditResult& result : auditDriver(gpu))
         if (!result.passed) failures += fmt::format("\n  {}: {}", result.what, result.found);
     if (failures.empty()) return;
-    throw GpuError(fmt::format("the driver of {} ({}) computes wrongly, so its pictures would be wrong:{}\n"
-                               "install a newer one (on Debian 12: mesa-vulkan-drivers from bookworm-backports, as tools/setup does), "
-                               "or choose another with --device",
-                               gpu.info().name, gpu.info().driver, failures));
+    throw GpuError(fmt::format(
+        "the driver of {} ({}) computes wrongly, so its pictures would be wrong:{}\n"
+        "install a newer one (on Debian 12: mesa-vulkan-drivers from bookworm-backports, as tools/setup does), "
+        "or choose another with --device",
+        gpu.info().name, gpu.info().driver, failures));
 }
 
 } // namespace vkpm

@@ -13,7 +13,8 @@ namespace vkpm {
 using Usage = vk::BufferUsageFlagBits;
 using Property = vk::MemoryPropertyFlagBits;
 
-static int findMemoryType(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
+static int findMemoryType(const vk::raii::PhysicalDevice& device, std::uint32_t allowed,
+                          vk::MemoryPropertyFlags wanted) {
     const auto memory = device.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++)
         if ((allowed >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return static_cast<int>(i);
@@ -32,30 +33,40 @@ static std::uint64_t usedBytes(const Gpu& gpu) {
 }
 
 static std::string refusal(const Gpu& gpu, const std::string& name, std::uint64_t bytes, const std::string& cause) {
-    return fmt::format("allocating {:.1f} MiB of device memory for '{}', beside {:.1f} MiB in use, failed: {}", double(bytes) / 1048576, name,
-                       double(usedBytes(gpu)) / 1048576, cause);
+    return fmt::format("allocating {:.1f} MiB of device memory for '{}', beside {:.1f} MiB in use, failed: {}",
+                       double(bytes) / 1048576, name, double(usedBytes(gpu)) / 1048576, cause);
 }
 
-static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::MemoryPropertyFlags wanted) {
+static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes,
+                           vk::MemoryPropertyFlags wanted) {
     const auto& device = gpu.handles->device;
     if (usedBytes(gpu) + bytes > gpu.handles->freeBytes)
-        throw OutOfMemory(refusal(gpu, name, bytes, fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576)));
-    const auto limits = gpu.handles->physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
-    if (const std::uint64_t most = limits.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize; bytes > most)
-        throw OutOfMemory(refusal(gpu, name, bytes, fmt::format("the device gives {:.1f} MiB in one piece at most", double(most) / 1048576)));
+        throw OutOfMemory(refusal(
+            gpu, name, bytes,
+            fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576)));
+    const auto limits =
+        gpu.handles->physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+    if (const std::uint64_t most = limits.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
+        bytes > most)
+        throw OutOfMemory(refusal(
+            gpu, name, bytes, fmt::format("the device gives {:.1f} MiB in one piece at most", double(most) / 1048576)));
     if (gpu.handles->isProcessor)
-        if (const std::string cause = whyNotAllocated(bytes, usedBytes(gpu)); !cause.empty()) throw GpuError(refusal(gpu, name, bytes, cause));
+        if (const std::string cause = whyNotAllocated(bytes, usedBytes(gpu)); !cause.empty())
+            throw GpuError(refusal(gpu, name, bytes, cause));
     Allocation result;
     try {
-        result.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo{
-            .size = bytes,
-            .usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst});
+        result.buffer = vk::raii::Buffer(
+            device, vk::BufferCreateInfo{.size = bytes,
+                                         .usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress |
+                                                  Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst});
         const auto needs = result.buffer.getMemoryRequirements();
         const int type = findMemoryType(gpu.handles->physical, needs.memoryTypeBits, wanted);
         if (type < 0) throw GpuError(fmt::format("no memory type of the device fits buffer '{}'", name));
         const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
-        result.memory = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{
-            .pNext = &flags, .allocationSize = needs.size, .memoryTypeIndex = static_cast<std::uint32_t>(type)});
+        result.memory =
+            vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{.pNext = &flags,
+                                                                  .allocationSize = needs.size,
+                                                                  .memoryTypeIndex = static_cast<std::uint32_t>(type)});
         result.buffer.bindMemory(*result.memory, 0);
     } catch (const vk::SystemError& error) {
         throw OutOfMemory(refusal(gpu, name, bytes, error.what()));
@@ -68,18 +79,20 @@ RawBuffer::RawBuffer() noexcept = default;
 RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size, std::uint64_t slack) : bytes(size) {
     if (bytes == 0) return;
     const bool maps = gpu.handles->mapsDeviceMemory;
-    const auto wanted = maps ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags(Property::eDeviceLocal);
+    const auto wanted =
+        maps ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags(Property::eDeviceLocal);
     Allocation allocation = allocate(gpu, name, bytes + slack, wanted);
-    handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory), std::move(allocation.buffer), nullptr, bytes);
+    handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory),
+                                        std::move(allocation.buffer), nullptr, bytes);
     address = gpu.handles->device.getBufferAddress({.buffer = *handles->buffer});
-    if (maps) handles->mapped = attempt("mapping device memory for '" + handles->name + "'", "", [&] { return handles->memory.mapMemory(0, VK_WHOLE_SIZE); });
+    if (maps)
+        handles->mapped = attempt("mapping device memory for '" + handles->name + "'", "",
+                                  [&] { return handles->memory.mapMemory(0, VK_WHOLE_SIZE); });
     gpu.memory[handles->name] += bytes;
     gpu.peakBytes = std::max(gpu.peakBytes, usedBytes(gpu));
 }
 
-RawBuffer::Handles::~Handles() {
-    gpu.memory[name] -= bytes;
-}
+RawBuffer::Handles::~Handles() { gpu.memory[name] -= bytes; }
 
 RawBuffer::RawBuffer(RawBuffer&& other) noexcept { *this = std::move(other); }
 
@@ -93,16 +106,18 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
 RawBuffer::~RawBuffer() = default;
 
 // Copies between the buffer and a staging buffer that the host sees; one thread at a time.
-static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset, const std::function<void(void*)>& before,
-                  const std::function<void(const void*)>& after) {
+static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset,
+                  const std::function<void(void*)>& before, const std::function<void(const void*)>& after) {
     static std::mutex one;
     const std::lock_guard lock(one);
     handles.gpu.times["staging"].dispatches++;
-    const Allocation staging = allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
+    const Allocation staging =
+        allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
     void* mapped = staging.memory.mapMemory(0, VK_WHOLE_SIZE);
     if (before) before(mapped);
     handles.gpu.handles->execute([&](const vk::raii::CommandBuffer& commands) {
-        if (before) commands.copyBuffer(*staging.buffer, *handles.buffer, vk::BufferCopy{.dstOffset = offset, .size = bytes});
+        if (before)
+            commands.copyBuffer(*staging.buffer, *handles.buffer, vk::BufferCopy{.dstOffset = offset, .size = bytes});
         else commands.copyBuffer(*handles.buffer, *staging.buffer, vk::BufferCopy{.srcOffset = offset, .size = bytes});
     });
     if (after) after(mapped);

@@ -24,18 +24,24 @@ public:
     std::uint64_t bytes = 0;
 };
 
-/// `count` elements of T in device memory; zero elements occupy nothing and have address 0. The slack behind the last one
-/// is for the validation layer, whose bounds check (1.3.239) measures structs with vec3 as if these were aligned to 16 bytes.
+/// `count` elements of T in device memory; zero elements occupy nothing and have address 0. The slack behind the last
+/// one is for the validation layer, whose bounds check (1.3.239) measures structs with vec3 as if these were aligned to
+/// 16 bytes.
 template <class T> class Buffer : public RawBuffer {
 public:
     Buffer() = default;
-    Buffer(Gpu& gpu, std::string name, std::uint64_t count) : RawBuffer(gpu, std::move(name), count * sizeof(T), sizeof(T) < 12 ? 0 : sizeof(T) + 16) {}
-    Buffer(Gpu& gpu, std::string name, std::span<const T> data) : Buffer(gpu, std::move(name), data.size()) { upload(data); }
+    Buffer(Gpu& gpu, std::string name, std::uint64_t count)
+        : RawBuffer(gpu, std::move(name), count * sizeof(T), sizeof(T) < 12 ? 0 : sizeof(T) + 16) {}
+    Buffer(Gpu& gpu, std::string name, std::span<const T> data) : Buffer(gpu, std::move(name), data.size()) {
+        upload(data);
+    }
 
     std::uint64_t size() const { return bytes / sizeof(T); }
     operator Ptr<T>() const { return {address}; }
 
-    void upload(std::span<const T> data, std::uint64_t first = 0) { write(data.data(), data.size_bytes(), first * sizeof(T)); }
+    void upload(std::span<const T> data, std::uint64_t first = 0) {
+        write(data.data(), data.size_bytes(), first * sizeof(T));
+    }
     T readElement(std::uint64_t index = 0) const {
         T value;
         read(&value, sizeof(T), index * sizeof(T));

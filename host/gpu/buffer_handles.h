@@ -13,8 +13,10 @@ struct RawBuffer::Handles {
     void* mapped = nullptr;
     std::uint64_t bytes = 0;
 
-    Handles(Gpu& owner, std::string label, vk::raii::DeviceMemory&& backing, vk::raii::Buffer&& handle, void* pointer, std::uint64_t size)
-        : gpu(owner), name(std::move(label)), memory(std::move(backing)), buffer(std::move(handle)), mapped(pointer), bytes(size) {}
+    Handles(Gpu& owner, std::string label, vk::raii::DeviceMemory&& backing, vk::raii::Buffer&& handle, void* pointer,
+            std::uint64_t size)
+        : gpu(owner), name(std::move(label)), memory(std::move(backing)), buffer(std::move(handle)), mapped(pointer),
+          bytes(size) {}
     ~Handles();
 };
 

@@ -21,7 +21,9 @@ static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device
     const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
     const auto limits = device.getProperties().limits;
-    const auto need = [&](bool has, const char* what) { if (!has) missingRequirements.push_back(what); };
+    const auto need = [&](bool has, const char* what) {
+        if (!has) missingRequirements.push_back(what);
+    };
     need(v12.bufferDeviceAddress, "bufferDeviceAddress");
     need(v12.scalarBlockLayout, "scalarBlockLayout");
     need(v13.synchronization2, "synchronization2");
@@ -40,8 +42,9 @@ static DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
     DeviceInfo info{.missingRequirements = findLacks(device)};
     const auto properties = device.getProperties();
     info.name = std::string(properties.deviceName.data());
-    info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
-                                  VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
+    info.apiVersion =
+        fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                    VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
         const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
                                                  vk::PhysicalDeviceVulkan12Properties>();
@@ -61,14 +64,17 @@ static std::string describeAll(const std::vector<vk::raii::PhysicalDevice>& devi
     for (std::size_t i = 0; i < devices.size(); i++) {
         const DeviceInfo info = describe(devices[i]);
         text += fmt::format("\n  {}: {}{}", i, info.name,
-                            info.missingRequirements.empty() ? "" : fmt::format(" (missingRequirements {})", fmt::join(info.missingRequirements, ", ")));
+                            info.missingRequirements.empty()
+                                ? ""
+                                : fmt::format(" (missingRequirements {})", fmt::join(info.missingRequirements, ", ")));
     }
     return text;
 }
 
 // The device asked for; else the first complete one of the fastest type.
 static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& devices, std::string_view wanted) {
-    if (devices.empty()) throw GpuError(fmt::format("vkEnumeratePhysicalDevices found no Vulkan device; {}", installHint));
+    if (devices.empty())
+        throw GpuError(fmt::format("vkEnumeratePhysicalDevices found no Vulkan device; {}", installHint));
     const auto rank = [&](std::size_t i) {
         const auto type = devices[i].getProperties().deviceType;
         if (!findLacks(devices[i]).empty()) return 4;
@@ -82,25 +88,31 @@ static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& dev
     if (!wanted.empty()) {
         chosen = devices.size();
         for (std::size_t i = devices.size(); i-- > 0;) {
-            const bool named = std::string_view(devices[i].getProperties().deviceName.data()).find(wanted) != std::string_view::npos;
+            const bool named =
+                std::string_view(devices[i].getProperties().deviceName.data()).find(wanted) != std::string_view::npos;
             if (named || wanted == std::to_string(i)) chosen = i;
         }
     }
-    if (chosen == devices.size()) throw GpuError(fmt::format("no Vulkan device is '{}'; there are:{}", wanted, describeAll(devices)));
-    if (rank(chosen) == 4) throw GpuError(fmt::format("the Vulkan device missingRequirements what vkpm needs; there are:{}\n{}", describeAll(devices), installHint));
+    if (chosen == devices.size())
+        throw GpuError(fmt::format("no Vulkan device is '{}'; there are:{}", wanted, describeAll(devices)));
+    if (rank(chosen) == 4)
+        throw GpuError(fmt::format("the Vulkan device missingRequirements what vkpm needs; there are:{}\n{}",
+                                   describeAll(devices), installHint));
     return chosen;
 }
 
 static bool hasExtension(const vk::raii::PhysicalDevice& device, std::string_view name) {
     const auto extensions = device.enumerateDeviceExtensionProperties();
-    return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName.data(); });
+    return std::ranges::any_of(extensions,
+                               [&](const auto& extension) { return name == extension.extensionName.data(); });
 }
 
 static vk::raii::Device createDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .maintenance4 = true};
-    vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .hostQueryReset = true, .bufferDeviceAddress = true};
+    vk::PhysicalDeviceVulkan12Features v12{
+        .pNext = &v13, .scalarBlockLayout = true, .hostQueryReset = true, .bufferDeviceAddress = true};
     const vk::PhysicalDeviceFeatures2 features{.pNext = &v12};
     vk::DeviceCreateInfo create{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
     const std::array portability{"VK_KHR_portability_subset"}; // a device that offers it wants it
@@ -108,13 +120,17 @@ static vk::raii::Device createDevice(const vk::raii::PhysicalDevice& physical, s
     return attempt("vkCreateDevice", installHint, [&] { return vk::raii::Device(physical, create); });
 }
 
-// Bytes of the largest device-local heap that nobody uses yet, as far as the driver tells. Drivers for the processor grant any
-// allocation; memory that is not there would end the program when it is first written to.
+// Bytes of the largest device-local heap that nobody uses yet, as far as the driver tells. Drivers for the processor
+// grant any allocation; memory that is not there would end the program when it is first written to.
 static std::uint64_t freeBytes(const vk::raii::PhysicalDevice& device) {
     const bool tells = hasExtension(device, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     const auto memory = device.getMemoryProperties();
     vk::PhysicalDeviceMemoryBudgetPropertiesEXT budget;
-    if (tells) budget = device.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2, vk::PhysicalDeviceMemoryBudgetPropertiesEXT>().get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    if (tells)
+        budget = device
+                     .getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2,
+                                           vk::PhysicalDeviceMemoryBudgetPropertiesEXT>()
+                     .get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
     std::uint64_t most = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; i++) {
         if (!(memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)) continue;
@@ -129,13 +145,15 @@ const std::uint32_t stampCount = 8192;
 
 static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     auto vk = std::make_unique<Gpu::Handles>();
-    auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return vk->instance.handle.enumeratePhysicalDevices(); });
+    auto devices = attempt("vkEnumeratePhysicalDevices", installHint,
+                           [&] { return vk->instance.handle.enumeratePhysicalDevices(); });
     vk->physical = std::move(devices[chooseDevice(devices, wanted)]);
     vk->info = describe(vk->physical);
     vk->family = static_cast<std::uint32_t>(computeFamily(vk->physical));
     vk->device = createDevice(vk->physical, vk->family);
     vk->queue = vk->device.getQueue(vk->family, 0);
-    vk->commands = vk->device.createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = vk->family});
+    vk->commands = vk->device.createCommandPool(
+        {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = vk->family});
     const auto properties = vk->physical.getProperties();
     if (const std::uint32_t bits = vk->physical.getQueueFamilyProperties()[vk->family].timestampValidBits; bits > 0) {
         vk->nanosecondsPerTick = properties.limits.timestampPeriod;
@@ -144,7 +162,8 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
     vk->freeBytes = freeBytes(vk->physical);
     vk->isProcessor = vk->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
-    vk->mapsDeviceMemory = properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu && !std::getenv("VKPM_STAGING");
+    vk->mapsDeviceMemory =
+        properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu && !std::getenv("VKPM_STAGING");
     return vk;
 }
 
@@ -156,7 +175,8 @@ Gpu::Handles::~Handles() {
 }
 
 vk::raii::CommandBuffer Gpu::Handles::begin() const {
-    auto buffers = device.allocateCommandBuffers({.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    auto buffers = device.allocateCommandBuffers(
+        {.commandPool = *commands, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
     buffers[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     return std::move(buffers[0]);
 }
@@ -205,14 +225,16 @@ const DeviceInfo& Gpu::info() const { return handles->info; }
 std::vector<DeviceInfo> listDevices() {
     const Instance instance;
     std::vector<DeviceInfo> infos;
-    for (const auto& device : attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); }))
+    for (const auto& device :
+         attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); }))
         infos.push_back(describe(device));
     return infos;
 }
 
 DeviceInfo defaultDevice() {
     const Instance instance;
-    const auto devices = attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); });
+    const auto devices =
+        attempt("vkEnumeratePhysicalDevices", installHint, [&] { return instance.handle.enumeratePhysicalDevices(); });
     return describe(devices[chooseDevice(devices, {})]);
 }
 

@@ -1,4 +1,5 @@
-/// A Vulkan device with one compute queue: what it is, what it missingRequirements, and the handles the other files here use.
+/// A Vulkan device with one compute queue: what it is, what it missingRequirements, and the handles the other files
+/// here use.
 #pragma once
 #include "error.h"
 #include <atomic>
@@ -16,7 +17,7 @@ struct DeviceInfo {
     std::string driver;
     std::string apiVersion;
     std::uint32_t subgroupSize = 0;
-    std::uint64_t memoryBytes = 0;  // of the largest device-local heap
+    std::uint64_t memoryBytes = 0;                // of the largest device-local heap
     std::vector<std::string> missingRequirements; // what vkpm needs and the device does not have
 };
 
@@ -31,7 +32,8 @@ struct Cancelled {};
 
 class Gpu {
 public:
-    /// Opens a device by index or by part of its name; without either the first that missingRequirements nothing, GPUs before CPUs.
+    /// Opens a device by index or by part of its name; without either the first that missingRequirements nothing, GPUs
+    /// before CPUs.
     explicit Gpu(std::string_view wanted = {});
     ~Gpu();
     Gpu(const Gpu&) = delete;
@@ -47,8 +49,8 @@ public:
     std::map<std::string, KernelTime> times;
     /// Whether runs are timed; on a CPU the time stamps take some 50 microseconds each, a tenth of a pass.
     bool timesKernels = false;
-    /// Drivers that compile kernels when they first run do so as soon as these are made, while the host goes on. They compile one
-    /// at a time: for kernels that run soon.
+    /// Drivers that compile kernels when they first run do so as soon as these are made, while the host goes on. They
+    /// compile one at a time: for kernels that run soon.
     bool compilesAhead = false;
 
     /// A flag that another thread may set: from then on submissions throw Cancelled, until it is taken back.

@@ -18,13 +18,16 @@ struct Gpu::Handles {
     std::uint32_t family = 0;
     float nanosecondsPerTick = 0;
     std::uint64_t tickMask = 0; // the bits that a timestamp has
-    bool isProcessor = false;      // no GPU: the driver runs on the host
-    bool mapsDeviceMemory = false; // the host can write device memory directly; VKPM_STAGING says that it cannot, for tests
+    bool isProcessor = false;   // no GPU: the driver runs on the host
+    bool mapsDeviceMemory =
+        false; // the host can write device memory directly; VKPM_STAGING says that it cannot, for tests
     std::uint64_t freeBytes = 0; // of device memory when the device was opened
     DeviceInfo info;
-    std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>> kernels; // by SPIR-V and features
+    std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>>
+        kernels;                                                  // by SPIR-V and features
     std::deque<std::shared_ptr<const RawKernel::Handles>> recent; // kernels that are kept for renderers to come
-    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>> inFlight; // submitted without waiting, and what they use
+    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>>
+        inFlight; // submitted without waiting, and what they use
 
     ~Handles();
 

@@ -22,13 +22,17 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagB
     std::abort();
 }
 
-static vk::raii::Instance createInstance(const vk::raii::Context& context, std::span<const char* const> wanted, bool validate) {
+static vk::raii::Instance createInstance(const vk::raii::Context& context, std::span<const char* const> wanted,
+                                         bool validate) {
     const vk::ApplicationInfo application{.pApplicationName = "vkpm", .apiVersion = VK_API_VERSION_1_3};
-    const std::vector<const char*> layers = validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
+    const std::vector<const char*> layers =
+        validate ? std::vector{"VK_LAYER_KHRONOS_validation"} : std::vector<const char*>{};
     std::vector<const char*> extensions(wanted.begin(), wanted.end());
     if (validate) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const auto offered = context.enumerateInstanceExtensionProperties();
-    const bool portability = std::ranges::any_of(offered, [](const auto& extension) { return std::string_view(extension.extensionName) == "VK_KHR_portability_enumeration"; });
+    const bool portability = std::ranges::any_of(offered, [](const auto& extension) {
+        return std::string_view(extension.extensionName) == "VK_KHR_portability_enumeration";
+    });
     if (portability) extensions.push_back("VK_KHR_portability_enumeration");
     const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
                              vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
@@ -36,7 +40,8 @@ static vk::raii::Instance createInstance(const vk::raii::Context& context, std::
     vk::ValidationFeaturesEXT features;
     features.setEnabledValidationFeatures(enabled);
     vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};
-    if (portability) create.flags = vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR; // or drivers over Metal are not listed
+    if (portability)
+        create.flags = vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR; // or drivers over Metal are not listed
     create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
     return attempt("vkCreateInstance", validate ? "VKPM_VALIDATION needs vulkan-validationlayers" : installHint,
                    [&] { return vk::raii::Instance(context, create); });
@@ -46,12 +51,13 @@ Instance::Instance(std::span<const char* const> extensions) {
     const bool validate = wantsValidation();
     handle = createInstance(context, extensions, validate);
     if (!validate) return;
-    vk::DebugUtilsMessengerCreateInfoEXT create; // filled as C's, since the type of the callback in vk:: depends on the version of the headers
-    create = VkDebugUtilsMessengerCreateInfoEXT{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-        .pfnUserCallback = onMessage};
+    vk::DebugUtilsMessengerCreateInfoEXT
+        create; // filled as C's, since the type of the callback in vk:: depends on the version of the headers
+    create = VkDebugUtilsMessengerCreateInfoEXT{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+                                                .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                                                   VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+                                                .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+                                                .pfnUserCallback = onMessage};
     messenger = handle.createDebugUtilsMessengerEXT(create);
 }
 

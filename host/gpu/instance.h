@@ -7,9 +7,11 @@
 
 namespace vkpm {
 
-inline const char* const installHint = "install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers), or run tools/setup";
+inline const char* const installHint =
+    "install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers), or run tools/setup";
 
-/// An instance with extensions by name; with the validation layer, whose messages end the program, if VKPM_VALIDATION asks for it.
+/// An instance with extensions by name; with the validation layer, whose messages end the program, if VKPM_VALIDATION
+/// asks for it.
 struct Instance {
     explicit Instance(std::span<const char* const> extensions = {});
 

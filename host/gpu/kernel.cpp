@@ -22,30 +22,40 @@ static FeatureWords wordsOf(const Features& features) {
     };
 }
 
-static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name, const FeatureWords& features, std::uint32_t argsBytes) {
+static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name,
+                                                         const FeatureWords& features, std::uint32_t argsBytes) {
     auto handles = std::make_shared<RawKernel::Handles>();
     handles->name = name;
     const auto words = findSpirv(name);
     std::array<vk::SpecializationMapEntry, featureIds.size()> entries;
-    for (std::uint32_t i = 0; i < entries.size(); i++) entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
+    for (std::uint32_t i = 0; i < entries.size(); i++)
+        entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
     attempt("creating the kernel " + name, "", [&] {
-        const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()});
+        const vk::raii::ShaderModule module(
+            device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()});
         const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = argsBytes};
         handles->layout = device.createPipelineLayout({.pushConstantRangeCount = 1, .pPushConstantRanges = &range});
-        const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(),
-                                               .dataSize = sizeof(features), .pData = features.data()};
-        const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute, .module = *module,
-                                                      .pName = "main", .pSpecializationInfo = &constants};
-        handles->pipeline = device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = *handles->layout});
+        const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),
+                                               .pMapEntries = entries.data(),
+                                               .dataSize = sizeof(features),
+                                               .pData = features.data()};
+        const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute,
+                                                      .module = *module,
+                                                      .pName = "main",
+                                                      .pSpecializationInfo = &constants};
+        handles->pipeline = device.createComputePipeline(
+            nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = *handles->layout});
     });
     return handles;
 }
 
 // A dispatch of nothing: drivers that compile a kernel when it first runs do so while the host goes on.
-static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel, std::uint32_t argsBytes) {
+static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel,
+                   std::uint32_t argsBytes) {
     vk::raii::CommandBuffer commands = gpu.begin();
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel->pipeline);
-    commands.pushConstants<std::uint8_t>(*kernel->layout, vk::ShaderStageFlagBits::eCompute, 0, std::vector<std::uint8_t>(argsBytes));
+    commands.pushConstants<std::uint8_t>(*kernel->layout, vk::ShaderStageFlagBits::eCompute, 0,
+                                         std::vector<std::uint8_t>(argsBytes));
     commands.dispatch(0, 1, 1);
     commands.end();
     gpu.submit(std::move(commands), kernel);

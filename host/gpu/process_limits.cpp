@@ -35,18 +35,24 @@ void onCrash(int) {
 std::string whyNotAllocated(std::uint64_t bytes, std::uint64_t used) {
     const rlim_t file = limitOf(RLIMIT_FSIZE), space = limitOf(RLIMIT_AS);
     if (file != RLIM_INFINITY && used + bytes > file)
-        return fmt::format("the driver keeps all memory in one file, and this process may write {:.1f} MiB a file; raise the limit (ulimit -f)", double(file) / 1048576);
+        return fmt::format("the driver keeps all memory in one file, and this process may write {:.1f} MiB a file; "
+                           "raise the limit (ulimit -f)",
+                           double(file) / 1048576);
     if (space != RLIM_INFINITY && addressSpaceUsed() + bytes > space)
-        return fmt::format("this process may use {:.1f} MiB of memory, and uses {:.1f}; raise the limit (ulimit -v)", double(space) / 1048576, double(addressSpaceUsed()) / 1048576);
+        return fmt::format("this process may use {:.1f} MiB of memory, and uses {:.1f}; raise the limit (ulimit -v)",
+                           double(space) / 1048576, double(addressSpaceUsed()) / 1048576);
     return "";
 }
 
 void heedLimits() {
-    for (const auto& [resource, option] : {std::pair(RLIMIT_AS, 'v'), std::pair(RLIMIT_DATA, 'd'), std::pair(RLIMIT_FSIZE, 'f')})
+    for (const auto& [resource, option] :
+         {std::pair(RLIMIT_AS, 'v'), std::pair(RLIMIT_DATA, 'd'), std::pair(RLIMIT_FSIZE, 'f')})
         if (const rlim_t limit = limitOf(resource); limit != RLIM_INFINITY)
-            crash += fmt::format("{}{:.1f} MiB (ulimit -{})", crash.empty() ? "" : " and ", double(limit) / 1048576, option);
+            crash +=
+                fmt::format("{}{:.1f} MiB (ulimit -{})", crash.empty() ? "" : " and ", double(limit) / 1048576, option);
     if (!crash.empty()) {
-        crash = fmt::format("vkpm: out of memory: the Vulkan driver crashed in a process that may use {}; raise the limit\n", crash);
+        crash = fmt::format(
+            "vkpm: out of memory: the Vulkan driver crashed in a process that may use {}; raise the limit\n", crash);
         for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) std::signal(signal, onCrash);
     }
     rlimit seconds{};

@@ -19,24 +19,27 @@ struct Recording::Handles {
 
     // All that ran before is visible to all that runs after.
     void barrier() {
-        const vk::MemoryBarrier2 barrier{
-            .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-            .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-            .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-            .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+        const vk::MemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                         .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                         .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                         .dstAccessMask =
+                                             vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
         commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
     }
 
     void stamp(std::string name) {
         barrier();
         names.push_back(std::move(name));
-        if (stamps()) commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps, static_cast<std::uint32_t>(names.size()));
+        if (stamps())
+            commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *gpu.handles->stamps,
+                                     static_cast<std::uint32_t>(names.size()));
     }
 
     void bind(const RawKernel& kernel, const void* args, std::uint32_t bytes) {
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel.handles->pipeline);
-        commands.pushConstants<std::uint8_t>(*kernel.handles->layout, vk::ShaderStageFlagBits::eCompute, 0,
-                                             vk::ArrayProxy<const std::uint8_t>(bytes, static_cast<const std::uint8_t*>(args)));
+        commands.pushConstants<std::uint8_t>(
+            *kernel.handles->layout, vk::ShaderStageFlagBits::eCompute, 0,
+            vk::ArrayProxy<const std::uint8_t>(bytes, static_cast<const std::uint8_t*>(args)));
     }
 };
 
@@ -64,7 +67,8 @@ void Recording::dispatch(const RawKernel& kernel, std::uint64_t threads, const v
     handles->stamp(kernel.handles->name);
 }
 
-void Recording::dispatchIndirect(const RawKernel& kernel, const RawBuffer& queues, std::uint64_t offset, const void* args, std::uint32_t bytes) {
+void Recording::dispatchIndirect(const RawKernel& kernel, const RawBuffer& queues, std::uint64_t offset,
+                                 const void* args, std::uint32_t bytes) {
     begin();
     handles->bind(kernel, args, bytes);
     handles->commands.dispatchIndirect(*queues.handles->buffer, offset);
@@ -84,10 +88,12 @@ void Recording::addTimes() {
     for (const std::string& name : handles->names) handles->gpu.times[name].dispatches++;
     if (!handles->stamps()) return;
     const auto count = static_cast<std::uint32_t>(handles->names.size()) + 1;
-    const auto [result, ticks] = vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const auto [result, ticks] =
+        vk.stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     for (std::uint32_t i = 0; result == vk::Result::eSuccess && i + 1 < count; i++)
-        handles->gpu.times[handles->names[i]].seconds += double((ticks[i + 1] - ticks[i]) & vk.tickMask) * vk.nanosecondsPerTick * 1e-9;
+        handles->gpu.times[handles->names[i]].seconds +=
+            double((ticks[i + 1] - ticks[i]) & vk.tickMask) * vk.nanosecondsPerTick * 1e-9;
 }
 
 void Recording::submit() {

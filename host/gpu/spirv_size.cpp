@@ -35,7 +35,8 @@ std::size_t instructionCount(std::string_view kernel, const Features& features) 
     std::vector<std::uint32_t> optimised;
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
-    if (!optimizer.Run(words.data(), words.size(), &optimised, options)) throw std::runtime_error(fmt::format("SPIRV-Tools cannot optimise the kernel {}", kernel));
+    if (!optimizer.Run(words.data(), words.size(), &optimised, options))
+        throw std::runtime_error(fmt::format("SPIRV-Tools cannot optimise the kernel {}", kernel));
     return countInFunctions(optimised);
 }
 

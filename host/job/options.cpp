@@ -14,11 +14,14 @@ void requirePhotonMap(const SettingsOptions& options, uint integrator) {
     if (integrator == INTEGRATOR_PHOTON_MAP) return;
     for (const auto& [name, given] : {std::pair("--map", options.showCaustic), std::pair("--show", options.showPoints)})
         if (given)
-            throw InputError(fmt::format("{}: found with --integrator {}; allowed: only with --integrator photon-map", name, integratorNames[integrator]));
+            throw InputError(fmt::format("{}: found with --integrator {}; allowed: only with --integrator photon-map",
+                                         name, integratorNames[integrator]));
 }
 
 Settings SettingsOptions::over(Settings settings) const {
-    const auto set = [](auto& target, const auto& value) { if (value) target = *value; };
+    const auto set = [](auto& target, const auto& value) {
+        if (value) target = *value;
+    };
     set(settings.size, size);
     set(settings.integrator, integrator);
     set(settings.showCaustic, showCaustic);
@@ -43,7 +46,8 @@ Settings SettingsOptions::over(Settings settings) const {
 Settings RenderOptions::settingsOf(const Settings& sceneSettings) const {
     const Settings settings = over(sceneSettings);
     if (targetError && (settings.layers & (1u << ASK_NOISE | 1u << ASK_BIAS)) != (1u << ASK_NOISE | 1u << ASK_BIAS))
-        throw InputError("--target-error: needs the layers noise and bias; allowed: with all layers, or with both in --layers");
+        throw InputError(
+            "--target-error: needs the layers noise and bias; allowed: with all layers, or with both in --layers");
     return settings;
 }
 
@@ -55,7 +59,8 @@ void requireFilesApart(const RenderOptions& options, std::span<const fs::path> s
     if (options.log) written.push_back({"--log", *options.log});
     if (options.report)
         for (const char* name : Report::files) written.push_back({"--report", *options.report / name});
-    for (const fs::path& file : sceneFiles) read.push_back({file == sceneFiles[0] ? "the scene" : "a mesh of the scene", file});
+    for (const fs::path& file : sceneFiles)
+        read.push_back({file == sceneFiles[0] ? "the scene" : "a mesh of the scene", file});
     if (options.reference) read.push_back({"--reference", *options.reference});
     requireApart(written, read);
 }

@@ -31,8 +31,9 @@ struct Keeping {
     bool half = false; // layers as 16-bit floats
 };
 
-/// Writes the picture of a film with its sums and further attributes, and a PNG beside it, some rows at a time; size, layers and exposure
-/// are the settings'.
-void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings, std::map<std::string, std::string> attributes, const Keeping& keeping = {});
+/// Writes the picture of a film with its sums and further attributes, and a PNG beside it, some rows at a time; size,
+/// layers and exposure are the settings'.
+void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings,
+                std::map<std::string, std::string> attributes, const Keeping& keeping = {});
 
 } // namespace vkpm

@@ -1,12 +1,12 @@
 /// Passes, what is due between them, and files.
 #include "job/render_job.h"
+#include "interrupt.h"
 #include "output/film_image.h"
 #include "output/film_runs.h"
-#include "interrupt.h"
 #include "output/messages.h"
+#include "render/explain.h"
 #include "render/noise.h"
 #include "render/radius.h"
-#include "render/explain.h"
 #include "scene/identity.h"
 #include "scene/settings_json.h"
 #include <fmt/format.h>
@@ -16,9 +16,7 @@ namespace {
 
 const uint minPassesForError = 8; // batches of two sizes, see render/noise.h
 
-PhotonCounts countsOf(const PhotonLedger& l) {
-    return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost};
-}
+PhotonCounts countsOf(const PhotonLedger& l) { return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost}; }
 
 std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given, double unit) {
     if (!stages) return {};
@@ -37,12 +35,14 @@ std::vector<std::string> manifest(const Features& features, const Settings& sett
 
 } // namespace
 
-RenderJob::RenderJob(const RenderOptions& opts, const Scene& input, const Settings& set, Gpu& opened, EventLog& events, Clock::time_point begun)
+RenderJob::RenderJob(const RenderOptions& opts, const Scene& input, const Settings& set, Gpu& opened, EventLog& events,
+                     Clock::time_point begun)
     : renderer(opened, input, set), options(opts), scene(input), settings(set), gpu(opened), log(events), start(begun),
       device(fmt::format("{}, {}", gpu.info().name, gpu.info().driver)), identity(identityOf(scene, settings)),
       passes(options.passRange.value_or(PassRange{0, settings.passes})) {
     openReport();
-    if ((options.seconds || options.targetError || options.isEndless) && !options.passes && !options.passRange) passes.end = NONE;
+    if ((options.seconds || options.targetError || options.isEndless) && !options.passes && !options.passRange)
+        passes.end = NONE;
 }
 
 void RenderJob::openReport() {
@@ -63,9 +63,13 @@ std::uint64_t RenderJob::photons() const {
     return renderer.photons(MapKind::global).emitted + renderer.photons(MapKind::caustic).emitted;
 }
 
-std::optional<GatherRadii> RenderJob::globalRadii() const { return radiiOf(renderer.globalMap(), settings.radius.has_value(), scene.coordinates.unit); }
+std::optional<GatherRadii> RenderJob::globalRadii() const {
+    return radiiOf(renderer.globalMap(), settings.radius.has_value(), scene.coordinates.unit);
+}
 
-std::optional<GatherRadii> RenderJob::causticRadii() const { return radiiOf(renderer.causticMap(), settings.causticRadius.has_value(), scene.coordinates.unit); }
+std::optional<GatherRadii> RenderJob::causticRadii() const {
+    return radiiOf(renderer.causticMap(), settings.causticRadius.has_value(), scene.coordinates.unit);
+}
 
 std::uint64_t RenderJob::nonfinite() const {
     std::uint64_t count = earlierNonfinite;
@@ -77,16 +81,19 @@ std::uint64_t RenderJob::nonfinite() const {
 void RenderJob::requireSame(const RenderFile& file) const {
     const std::vector<std::string> lines = differences(identity, file.header.attributes);
     if (!lines.empty())
-        throw InputError(fmt::format("{}: --resume: was rendered from another scene or with other settings; what differs (here asked for, there in the file):\n  {}",
+        throw InputError(fmt::format("{}: --resume: was rendered from another scene or with other settings; what "
+                                     "differs (here asked for, there in the file):\n  {}",
                                      file.path.string(), fmt::join(lines, "\n  ")));
     if (file.header.size != settings.size)
-        throw InputError(fmt::format("{}: --resume: has {}x{} pixels, its settings say {}x{}; it was changed by another program", file.path.string(),
-                                     file.header.size.x, file.header.size.y, settings.size.x, settings.size.y));
+        throw InputError(
+            fmt::format("{}: --resume: has {}x{} pixels, its settings say {}x{}; it was changed by another program",
+                        file.path.string(), file.header.size.x, file.header.size.y, settings.size.x, settings.size.y));
     const PassRange held = file.passes();
     const bool fits = held.begin == passes.begin && (!options.passRange || held.end <= passes.end);
     if (!fits)
-        throw InputError(fmt::format("{}: --resume: holds {}; allowed: a file that begins with pass {}{}", file.path.string(), describe(held), passes.begin,
-                                     options.passRange ? fmt::format(" and ends with pass {} or before", passes.end - 1) : ""));
+        throw InputError(fmt::format(
+            "{}: --resume: holds {}; allowed: a file that begins with pass {}{}", file.path.string(), describe(held),
+            passes.begin, options.passRange ? fmt::format(" and ends with pass {} or before", passes.end - 1) : ""));
 }
 
 void RenderJob::resume() {
@@ -94,7 +101,8 @@ void RenderJob::resume() {
     const RenderFile file = openRender(options.output);
     requireSame(file);
     if (file.attribute("device") != device)
-        warn(fmt::format("{} was rendered by {}, and goes on on {}: roundings may differ", options.output.string(), file.attribute("device"), device));
+        warn(fmt::format("{} was rendered by {}, and goes on on {}: roundings may differ", options.output.string(),
+                         file.attribute("device"), device));
     restore(renderer.film, file);
     restored = savedPasses = passCount();
     earlierNonfinite = std::strtoull(file.attribute("nonfinite").c_str(), nullptr, 10);
@@ -106,7 +114,8 @@ bool RenderJob::done() const {
     const uint rendered = passCount() - restored;
     if (interrupted() || passes.begin + passCount() >= passes.end) return true;
     if (options.targetError && (hopeless || (error && error->error <= *options.targetError))) return true;
-    return options.seconds && restored + rendered > 0 && elapsed() + 0.5 * elapsed() / std::max(rendered, 1u) >= *options.seconds;
+    return options.seconds && restored + rendered > 0 &&
+           elapsed() + 0.5 * elapsed() / std::max(rendered, 1u) >= *options.seconds;
 }
 
 bool RenderJob::missesPhotons() const {
@@ -119,8 +128,8 @@ std::optional<ErrorEstimate> RenderJob::estimateNow() const {
     return estimateError([&](uint row, uint rows) { return renderer.film.pixels(row, rows); }, settings.size);
 }
 
-/// Estimates the error at numbers of passes that grow by a quarter: a function of the passes alone, so that a render that is
-/// resumed stops where one that was not would.
+/// Estimates the error at numbers of passes that grow by a quarter: a function of the passes alone, so that a render
+/// that is resumed stops where one that was not would.
 void RenderJob::estimate() {
     const uint count = passCount();
     uint due = minPassesForError;
@@ -128,27 +137,36 @@ void RenderJob::estimate() {
     if (!options.targetError || due != count) return;
     error = estimateNow();
     hopeless = missesPhotons();
-    if (error) log.write("error", {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
+    if (error)
+        log.write("error",
+                  {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
 }
 
 void RenderJob::addToReport() {
     const auto before = Clock::now();
-    report->add({.passes = passCount(), .seconds = seconds(), .rays = rays(), .photons = photons(), .estimate = estimateNow()},
-                filmImage(renderer.film.download(), settings.size, settings.layers));
+    report->add(
+        {.passes = passCount(), .seconds = seconds(), .rays = rays(), .photons = photons(), .estimate = estimateNow()},
+        filmImage(renderer.film.download(), settings.size, settings.layers));
     reporting += secondsSince(before);
 }
 
 void RenderJob::finishReport() const {
     const std::vector<Pixel> pixels = renderer.film.download();
     report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, settings.exposure),
-                   {{"scene", options.scene.string()}, {"settings", identity.at("settings")}, {"version", identity.at("version")}, {"device", device},
+                   {{"scene", options.scene.string()},
+                    {"settings", identity.at("settings")},
+                    {"version", identity.at("version")},
+                    {"device", device},
                     {"reference", options.reference ? options.reference->string() : "none"}});
 }
 
 void RenderJob::begin() {
     beginning = saved = Clock::now();
-    log.write("start", {{"scene", options.scene.string()}, {"settings", nlohmann::ordered_json::parse(settingsJson(settings))},
-                        {"passes", {passes.begin, passes.end}}, {"device", gpu.info().name}, {"radius", radiiJson(globalRadii())},
+    log.write("start", {{"scene", options.scene.string()},
+                        {"settings", nlohmann::ordered_json::parse(settingsJson(settings))},
+                        {"passes", {passes.begin, passes.end}},
+                        {"device", gpu.info().name},
+                        {"radius", radiiJson(globalRadii())},
                         {"causticRadius", radiiJson(causticRadii())}});
     if (restored > 0) estimate();
 }
@@ -181,8 +199,11 @@ void RenderJob::renderPass() {
 
 void RenderJob::sayWhatIsSaved() const {
     const std::string file = options.output.string();
-    if (savedPasses > 0) say("{} holds the first {} of {} passes rendered; the same command with --resume goes on from there", file, savedPasses, passCount());
-    else if (passCount() > 0) say("{} passes are lost; with --checkpoint SECONDS they are saved on the way", passCount());
+    if (savedPasses > 0)
+        say("{} holds the first {} of {} passes rendered; the same command with --resume goes on from there", file,
+            savedPasses, passCount());
+    else if (passCount() > 0)
+        say("{} passes are lost; with --checkpoint SECONDS they are saved on the way", passCount());
 }
 
 /// Saves on the way; if that fails, what there is on disk stays, and the render goes on.
@@ -206,7 +227,8 @@ void RenderJob::save() {
     attributes["nonfinite"] = std::to_string(nonfinite());
     // Without the time, two runs write the same file bit for bit; who asks for statistics gets it.
     if (options.stats) attributes["seconds"] = fmt::format("{:.3f}", earlierSeconds + secondsSince(beginning));
-    saveRender(options.output, renderer.film, settings, std::move(attributes), {.sums = !options.withoutSums, .half = options.half});
+    saveRender(options.output, renderer.film, settings, std::move(attributes),
+               {.sums = !options.withoutSums, .half = options.half});
 }
 
 Statistics RenderJob::statistics() const {
@@ -240,7 +262,9 @@ void RenderJob::tell(const std::string& warning) {
 
 /// Whether no pixel has light; a few rows tell of most pictures.
 bool RenderJob::isBlack() const {
-    const auto isDark = [](const Pixel& pixel) { return std::ranges::all_of(pixel.mean.layers, [](vec3 light) { return light == vec3{0}; }); };
+    const auto isDark = [](const Pixel& pixel) {
+        return std::ranges::all_of(pixel.mean.layers, [](vec3 light) { return light == vec3{0}; });
+    };
     const uint height = settings.size.y;
     for (const uint step : {std::max(1u, height / 16), 1u})
         for (uint row = 0; row < height; row += step)
@@ -250,7 +274,8 @@ bool RenderJob::isBlack() const {
 
 void RenderJob::warnOfDarkness() {
     if (missesPhotons())
-        tell("no photon arrived anywhere, so that indirect light and caustics are missing and no error is stated; do the lamps shine away from everything "
+        tell("no photon arrived anywhere, so that indirect light and caustics are missing and no error is stated; do "
+             "the lamps shine away from everything "
              "(a rectangle emits on the side of u x v, with \"twoSided\" on both), or are they inside something?");
     else if (isBlack())
         tell("the picture is black: nothing that the camera sees is lit; is the camera, or a lamp, inside something?");
@@ -261,8 +286,11 @@ void RenderJob::warnOfBlur() {
     if (!stages || !stages->roundingBinds) return;
     const auto inWorld = [&](double length) { return scene.coordinates.unit * length; };
     const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
-    tell(fmt::format("caustics are blurred by discs of {:.3g} at least, though photons are dense enough for narrower ones: coordinates reach {:.3g} from the middle of "
-                     "the scene, with the digits of 32-bit floats; leave out what lies far from the caustics, or move it nearer", inWorld(stages->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
+    tell(fmt::format(
+        "caustics are blurred by discs of {:.3g} at least, though photons are dense enough for narrower ones: "
+        "coordinates reach {:.3g} from the middle of "
+        "the scene, with the digits of 32-bit floats; leave out what lies far from the caustics, or move it nearer",
+        inWorld(stages->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
 }
 
 bool RenderJob::finish() {
@@ -273,7 +301,9 @@ bool RenderJob::finish() {
         tell(fmt::format("{} samples were not finite and count as black; see nonfinite in --stats", nonfinite()));
     for (const MapKind kind : {MapKind::global, MapKind::caustic})
         if (const std::uint64_t lost = renderer.photons(kind).lost)
-            tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; a closed scene that absorbs nothing has no finite light", lost, maxBounces));
+            tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; "
+                             "a closed scene that absorbs nothing has no finite light",
+                             lost, maxBounces));
     warnOfDarkness();
     warnOfBlur();
     save();

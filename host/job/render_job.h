@@ -1,12 +1,12 @@
 /// A render with what the command line asks for, from the first pass to the saved file; with a window or without.
 #pragma once
 #include "job/options.h"
-#include "render/error_estimate.h"
-#include "output/event_log.h"
-#include "measure/report.h"
-#include "output/statistics.h"
-#include "render/renderer.h"
 #include "job/render_file.h"
+#include "measure/report.h"
+#include "output/event_log.h"
+#include "output/statistics.h"
+#include "render/error_estimate.h"
+#include "render/renderer.h"
 #include "shared_film.h"
 #include <chrono>
 
@@ -14,12 +14,15 @@ namespace vkpm {
 
 using Clock = std::chrono::steady_clock;
 
-inline double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+inline double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 class RenderJob {
 public:
     /// All that it is given has to outlive it. `start` is when the program began to do anything for this render.
-    RenderJob(const RenderOptions& options, const Scene& scene, const Settings& settings, Gpu& gpu, EventLog& log, Clock::time_point start);
+    RenderJob(const RenderOptions& options, const Scene& scene, const Settings& settings, Gpu& gpu, EventLog& log,
+              Clock::time_point start);
 
     /// Goes on from what the output holds, if it is there.
     void resume();
@@ -34,8 +37,8 @@ public:
     bool done() const;
     /// Renders the next pass, with what is due after it: report, estimate, log, checkpoint.
     void renderPass();
-    /// The end of rendering: saves, reports, says how much error is left unless the options are quiet. False if there was no pass
-    /// to save: an older picture stays.
+    /// The end of rendering: saves, reports, says how much error is left unless the options are quiet. False if there
+    /// was no pass to save: an older picture stays.
     bool finish();
     /// Time that was no rendering: neither --time nor reports count it.
     void leaveOut(double seconds) { reporting += seconds; }
@@ -51,7 +54,8 @@ public:
     std::uint64_t photons() const; // emitted
     std::optional<GatherRadii> globalRadii() const;
     std::optional<GatherRadii> causticRadii() const;
-    /// Nothing while there are no batches of passes that could differ, if nobody asked for noise, or if photons are missing.
+    /// Nothing while there are no batches of passes that could differ, if nobody asked for noise, or if photons are
+    /// missing.
     std::optional<ErrorEstimate> estimateNow() const;
     /// The last estimate that --target-error asked for.
     const std::optional<ErrorEstimate>& lastError() const { return error; }

@@ -27,9 +27,11 @@ const mat3 RGB_TO_XYZ = [] {
 const mat3 RGB_TO_OPPONENTS = glm::transpose(mat3(0, 1, 0, 1, -1, 0, 0, 1, -1)) * RGB_TO_XYZ;
 const mat3 OPPONENTS_TO_RGB = glm::inverse(RGB_TO_OPPONENTS);
 
-// What is done to each pixel of a tile, for many exposures, is written as loops that compilers turn into vector instructions; on x86 in
-// two versions, of which the processor chooses. Neither fuses products and sums (CMakeLists.txt), so that both give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// What is done to each pixel of a tile, for many exposures, is written as loops that compilers turn into vector
+// instructions; on x86 in two versions, of which the processor chooses. Neither fuses products and sums
+// (CMakeLists.txt), so that both give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
+    !defined(__SANITIZE_THREAD__)
 #define VECTORIZED __attribute__((target_clones("avx2", "default")))
 #else
 #define VECTORIZED
@@ -51,10 +53,16 @@ inline float raised(float x, float power) {
     const float exponent = static_cast<float>(static_cast<std::int32_t>(bits) >> 23);
     const float mantissa = std::bit_cast<float>((bits & 0x7fffffu) + 0x3f3504f3u);
     const float s = (mantissa - 1) / (mantissa + 1), s2 = s * s;
-    const float log2 = exponent + s * (2.88539008f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * (0.412198583f + s2 * 0.320598898f))));
+    const float log2 =
+        exponent +
+        s * (2.88539008f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * (0.412198583f + s2 * 0.320598898f))));
     const float product = std::max(power * log2, -126.0f);
     const float whole = (product + 12582912.0f) - 12582912.0f, part = product - whole;
-    const float two = 1 + part * (0.693147181f + part * (0.240226507f + part * (0.0555041087f + part * (0.00961812911f + part * (0.00133335581f + part * 0.000154035304f)))));
+    const float two =
+        1 + part * (0.693147181f +
+                    part * (0.240226507f +
+                            part * (0.0555041087f +
+                                    part * (0.00961812911f + part * (0.00133335581f + part * 0.000154035304f)))));
     const float power2 = std::bit_cast<float>(static_cast<uint>(static_cast<std::int32_t>(whole) + 127) << 23);
     return x > 0 ? two * power2 : 0.0f;
 }
@@ -67,7 +75,8 @@ inline float perceivedRoot(float t) {
 }
 
 inline vec3 times(const mat3& m, vec3 v) {
-    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z, m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
+            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
 
 /// CIE L*a*b* of a colour in [0, 1], with a* and b* that fade in the dark (the Hunt effect).
@@ -147,14 +156,16 @@ VECTORIZED void expose(const PaddedPlanes& radiance, float factor, const mat3& t
     const PaddedPlane &red = radiance[0], &green = radiance[1], &blue = radiance[2];
     PaddedPlane &x = opponents[0], &y = opponents[1], &z = opponents[2];
     for (size_t i = 0; i < PADDED * PADDED; ++i) {
-        const float r = toneMapped(factor * red[i]), g = toneMapped(factor * green[i]), b = toneMapped(factor * blue[i]);
+        const float r = toneMapped(factor * red[i]), g = toneMapped(factor * green[i]),
+                    b = toneMapped(factor * blue[i]);
         const vec3 seen = times(m, vec3(r, g, b));
         x[i] = seen.x, y[i] = seen.y, z[i] = seen.z;
     }
 }
 
 /// The length of a derivative of brightness along both axes.
-VECTORIZED void detect(const PaddedPlane& brightness, const FlipFilters::Detector& derivative, const FlipFilters::Detector& smooth, Plane& length) {
+VECTORIZED void detect(const PaddedPlane& brightness, const FlipFilters::Detector& derivative,
+                       const FlipFilters::Detector& smooth, Plane& length) {
     Plane across;
     convolve(brightness, derivative, smooth, across);
     convolve(brightness, smooth, derivative, length);
@@ -162,7 +173,8 @@ VECTORIZED void detect(const PaddedPlane& brightness, const FlipFilters::Detecto
 }
 
 /// Perceived colours of filtered opponents.
-VECTORIZED void perceive(const PaddedPlanes& opponents, const FlipFilters& f, const mat3& toRgb, const mat3& toXyz, Planes& colours) {
+VECTORIZED void perceive(const PaddedPlanes& opponents, const FlipFilters& f, const mat3& toRgb, const mat3& toXyz,
+                         Planes& colours) {
     Plane narrow;
     convolve(opponents[0], f.brightness, f.brightness, colours[0]);
     convolve(opponents[1], f.redGreen, f.redGreen, colours[1]);
@@ -196,13 +208,16 @@ struct View {
     }
 };
 
-/// Keeps the greater error of each pixel. The difference of colours in [0, 1], of which four tenths of the greatest distance fill 95 %, to
-/// a power that the difference of edges or of points lessens, whichever is greater.
-VECTORIZED void keepGreater(const Planes& a, const Planes& b, const Plane& edges, const Plane& otherEdges, const Plane& points, const Plane& otherPoints, float greatest, Plane& error) {
+/// Keeps the greater error of each pixel. The difference of colours in [0, 1], of which four tenths of the greatest
+/// distance fill 95 %, to a power that the difference of edges or of points lessens, whichever is greater.
+VECTORIZED void keepGreater(const Planes& a, const Planes& b, const Plane& edges, const Plane& otherEdges,
+                            const Plane& points, const Plane& otherPoints, float greatest, Plane& error) {
     for (size_t i = 0; i < error.size(); ++i) {
         const float part = distance(vec3(a[0][i], a[1][i], a[2][i]), vec3(b[0][i], b[1][i], b[2][i])) / greatest;
         const float colour = part < 0.4f ? part * (0.95f / 0.4f) : 0.95f + (part - 0.4f) * (0.05f / 0.6f);
-        const float feature = std::sqrt(std::max(std::abs(edges[i] - otherEdges[i]), std::abs(points[i] - otherPoints[i])) / std::numbers::sqrt2_v<float>);
+        const float feature =
+            std::sqrt(std::max(std::abs(edges[i] - otherEdges[i]), std::abs(points[i] - otherPoints[i])) /
+                      std::numbers::sqrt2_v<float>);
         error[i] = std::max(error[i], raised(colour, 1 - feature));
     }
 }
@@ -238,7 +253,8 @@ struct Tile {
             if (image.opponents == reference.opponents) continue;
             image.filter(filters);
             reference.filter(filters);
-            keepGreater(image.colours, reference.colours, image.edges, reference.edges, image.points, reference.points, greatest, error);
+            keepGreater(image.colours, reference.colours, image.edges, reference.edges, image.points, reference.points,
+                        greatest, error);
         }
     }
 

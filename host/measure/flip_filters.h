@@ -90,11 +90,13 @@ private:
 
 /// A tile under a filter that is the product of one along each axis.
 template <size_t COUNT>
-[[gnu::always_inline]] inline void convolve(const PaddedPlane& plane, const std::array<float, COUNT>& alongX, const std::array<float, COUNT>& alongY, Plane& result) {
+[[gnu::always_inline]] inline void convolve(const PaddedPlane& plane, const std::array<float, COUNT>& alongX,
+                                            const std::array<float, COUNT>& alongY, Plane& result) {
     constexpr size_t MARGIN = HALO - COUNT / 2;
     std::array<float, TILE * PADDED> rows;
     // A row of TILE sums, each over neighbours that are `stride` apart, from `first` on.
-    const auto sumRow = [](const float* first, size_t stride, const std::array<float, COUNT>& taps, float* row) __attribute__((always_inline)) {
+    const auto sumRow = [](const float* first, size_t stride, const std::array<float, COUNT>& taps, float* row)
+        __attribute__((always_inline)) {
         constexpr size_t AT_ONCE = 32; // sums that stay in registers
         for (size_t begin = 0; begin < TILE; begin += AT_ONCE) {
             std::array<float, AT_ONCE> sums{};

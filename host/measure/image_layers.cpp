@@ -42,7 +42,8 @@ Layer layerOf(const Values& values, const std::string& name, uvec2 size) {
     const std::string unnamed = isColour ? "beauty" : "XYZ";
     std::vector<std::string> names;
     for (const char letter : letters) names.push_back(prefix + letter);
-    return {prefix.empty() ? unnamed : prefix.substr(0, prefix.size() - 1), size, isColour, std::move(channels), std::move(names)};
+    return {prefix.empty() ? unnamed : prefix.substr(0, prefix.size() - 1), size, isColour, std::move(channels),
+            std::move(names)};
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 /// The rows of a report, and the file that holds them.
 #include "measure/report.h"
 #include "error.h"
+#include "measure/report_page.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
-#include "measure/report_page.h"
 #include "scene/settings.h"
 #include "shared_layers.h"
 #include <algorithm>
@@ -32,15 +32,16 @@ std::string tableOf(const std::vector<ReportRow>& rows) {
         const std::string begin = fmt::format("{},{:.4f},{},{}", row.passes, row.seconds, row.rays, row.photons);
         if (row.layers.empty()) text += fmt::format("{},beauty,,,,,{}\n", begin, estimateCells(row.estimate));
         for (const auto& [name, e] : row.layers)
-            text += fmt::format("{},{},{},{},{},{},{}\n", begin, name, cell(e.rmse), cell(e.relmse), cell(e.meanError), cell(e.flip),
-                                name == "beauty" ? estimateCells(row.estimate) : ",,");
+            text += fmt::format("{},{},{},{},{},{},{}\n", begin, name, cell(e.rmse), cell(e.relmse), cell(e.meanError),
+                                cell(e.flip), name == "beauty" ? estimateCells(row.estimate) : ",,");
     }
     return text;
 }
 
 } // namespace
 
-Report::Report(std::filesystem::path where, const std::optional<std::filesystem::path>& against, uvec2 size) : folder(std::move(where)), referenceFile(against) {
+Report::Report(std::filesystem::path where, const std::optional<std::filesystem::path>& against, uvec2 size)
+    : folder(std::move(where)), referenceFile(against) {
     if (referenceFile) {
         reference = readExr(*referenceFile);
         requireSize(size);
@@ -49,14 +50,17 @@ Report::Report(std::filesystem::path where, const std::optional<std::filesystem:
     }
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw std::runtime_error(fmt::format("{}: --report: the folder cannot be made: {}", folder.string(), error.message()));
+    if (error)
+        throw std::runtime_error(
+            fmt::format("{}: --report: the folder cannot be made: {}", folder.string(), error.message()));
     for (const char* file : files) requireWritable(folder / file);
 }
 
 void Report::requireSize(uvec2 size) const {
     if (reference && reference->size != size)
-        throw InputError(fmt::format("{}: --reference: has {}x{} pixels; allowed: the {}x{} of the render, or another --size", referenceFile->string(), reference->size.x,
-                                     reference->size.y, size.x, size.y));
+        throw InputError(
+            fmt::format("{}: --reference: has {}x{} pixels; allowed: the {}x{} of the render, or another --size",
+                        referenceFile->string(), reference->size.x, reference->size.y, size.x, size.y));
 }
 
 bool Report::due(uint passes) {
@@ -70,13 +74,15 @@ void Report::add(ReportRow row, const Image& image) {
     if (reference) {
         const std::vector<Layer> references = imageLayers(*reference);
         for (const Layer& layer : imageLayers(image))
-            if (const Layer* other = isLight(layer) ? comparableIn(references, layer) : nullptr) row.layers[layer.name] = measureLayer(layer, *other);
+            if (const Layer* other = isLight(layer) ? comparableIn(references, layer) : nullptr)
+                row.layers[layer.name] = measureLayer(layer, *other);
     }
     all.push_back(std::move(row));
     replaceFile(folder / "error.csv", tableOf(all));
 }
 
-void Report::finish(const Image& image, std::span<const uint> picture, const std::vector<std::pair<std::string, std::string>>& facts) const {
+void Report::finish(const Image& image, std::span<const uint> picture,
+                    const std::vector<std::pair<std::string, std::string>>& facts) const {
     replaceFile(folder / "index.html", reportPage(all, image, picture, reference ? &*reference : nullptr, facts));
 }
 

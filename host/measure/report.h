@@ -1,8 +1,8 @@
 /// Error against run time: what a render was off a reference, and what it said itself, pass by pass.
 #pragma once
-#include "render/error_estimate.h"
-#include "output/image.h"
 #include "measure/layer_error.h"
+#include "output/image.h"
+#include "render/error_estimate.h"
 #include <array>
 #include <filesystem>
 #include <map>
@@ -15,7 +15,7 @@ struct ReportRow {
     uint passes = 0;
     double seconds = 0; // of rendering alone
     std::uint64_t rays = 0;
-    std::uint64_t photons = 0; // emitted
+    std::uint64_t photons = 0;                  // emitted
     std::map<std::string, LayerError> layers{}; // of light; empty without a reference
     std::optional<ErrorEstimate> estimate{};    // of beauty
 };
@@ -25,8 +25,8 @@ class Report {
 public:
     static constexpr std::array<const char*, 2> files{"error.csv", "index.html"};
 
-    /// Makes the folder if there is none. A reference is an EXR file of the same size; without one, rows have estimates alone.
-    /// Throws InputError or std::runtime_error with file and cause.
+    /// Makes the folder if there is none. A reference is an EXR file of the same size; without one, rows have estimates
+    /// alone. Throws InputError or std::runtime_error with file and cause.
     Report(std::filesystem::path folder, const std::optional<std::filesystem::path>& reference, uvec2 size);
 
     /// Throws InputError if the reference has another size.
@@ -35,8 +35,10 @@ public:
     static bool due(uint passes);
     /// Adds a row; `image` is measured against the reference.
     void add(ReportRow row, const Image& image);
-    /// Writes the page: the last picture as 8-bit sRGB, its errors, the curves. `facts` are what it shows of the render.
-    void finish(const Image& image, std::span<const uint> picture, const std::vector<std::pair<std::string, std::string>>& facts) const;
+    /// Writes the page: the last picture as 8-bit sRGB, its errors, the curves. `facts` are what it shows of the
+    /// render.
+    void finish(const Image& image, std::span<const uint> picture,
+                const std::vector<std::pair<std::string, std::string>>& facts) const;
 
     const std::vector<ReportRow>& rows() const { return all; }
 
@@ -47,7 +49,8 @@ private:
     std::vector<ReportRow> all;
 };
 
-/// Slope of a straight line through the logarithms of ys over those of xs, by least squares; NaN with fewer than two points.
+/// Slope of a straight line through the logarithms of ys over those of xs, by least squares; NaN with fewer than two
+/// points.
 double fittedSlope(std::span<const double> xs, std::span<const double> ys);
 
 } // namespace vkpm

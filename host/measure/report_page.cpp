@@ -27,16 +27,25 @@ std::string base64(std::span<const char> bytes) {
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         uint word = 0;
-        for (std::size_t k = 0; k < 3; k++) word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+        for (std::size_t k = 0; k < 3; k++)
+            word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
         for (std::size_t k = 0; k < 4; k++) text += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
     }
     return text;
 }
 
-/// A colour from dark blue by green to yellow, of equal steps to the eye and to colour-blind ones, for a value from 0 to 1: the ninths
-/// of the map viridis (Smith & van der Walt 2015).
+/// A colour from dark blue by green to yellow, of equal steps to the eye and to colour-blind ones, for a value from 0
+/// to 1: the ninths of the map viridis (Smith & van der Walt 2015).
 uint mapColor(double value) {
-    const std::array<std::array<double, 3>, 9> stops{{{68, 1, 84}, {71, 44, 122}, {59, 81, 139}, {44, 113, 142}, {33, 144, 141}, {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}}};
+    const std::array<std::array<double, 3>, 9> stops{{{68, 1, 84},
+                                                      {71, 44, 122},
+                                                      {59, 81, 139},
+                                                      {44, 113, 142},
+                                                      {33, 144, 141},
+                                                      {39, 173, 129},
+                                                      {92, 200, 99},
+                                                      {170, 220, 50},
+                                                      {253, 231, 37}}};
     const double place = std::clamp(std::isfinite(value) ? value : 1.0, 0.0, 1.0) * (stops.size() - 1);
     const auto low = std::min(static_cast<std::size_t>(place), stops.size() - 2);
     uint color = 0xff000000u;
@@ -48,8 +57,9 @@ uint mapColor(double value) {
 }
 
 std::string figure(uvec2 size, std::span<const uint> colors, const std::string& caption) {
-    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", size.x,
-                       size.y, escaped(caption), base64(encodePng(size, colors)), escaped(caption));
+    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "
+                       "src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+                       size.x, size.y, escaped(caption), base64(encodePng(size, colors)), escaped(caption));
 }
 
 const Layer* beautyOf(const std::vector<Layer>& layers) {
@@ -72,7 +82,8 @@ std::string errorMaps(const Image& image, const Image& reference) {
         relative.push_back(mapColor(1 + std::log10(std::sqrt(square)) / 3)); // 0.001 to 1
     }
     for (const float value : flipMap(*ours, *theirs)) flip.push_back(mapColor(double(value)));
-    return figure(image.size, relative, "Relative error, from 0.1 % (dark) to 100 % (yellow), logarithmic") + figure(image.size, flip, "FLIP, from 0 (dark) to 1 (yellow)");
+    return figure(image.size, relative, "Relative error, from 0.1 % (dark) to 100 % (yellow), logarithmic") +
+           figure(image.size, flip, "FLIP, from 0 (dark) to 1 (yellow)");
 }
 
 struct Curve {
@@ -81,12 +92,14 @@ struct Curve {
 };
 
 /// Colours that colour-blind people tell apart (Okabe & Ito 2008).
-const std::array<const char*, 8> inks{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999", "#b8a800"};
+const std::array<const char*, 8> inks{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                      "#e69f00", "#56b4e9", "#999999", "#b8a800"};
 
 /// A diagram with logarithmic axes.
 class Diagram {
 public:
-    Diagram(std::string labelX, std::string labelY, const std::vector<Curve>& all) : xLabel(std::move(labelX)), yLabel(std::move(labelY)) {
+    Diagram(std::string labelX, std::string labelY, const std::vector<Curve>& all)
+        : xLabel(std::move(labelX)), yLabel(std::move(labelY)) {
         for (const Curve& curve : all) {
             Curve positive{curve.name, {}, {}};
             for (std::size_t i = 0; i < curve.xs.size(); i++) {
@@ -106,11 +119,15 @@ public:
 
     std::string svg() const {
         if (curves.empty()) return "";
-        std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} against {}\">\n", width, height, escaped(yLabel), escaped(xLabel));
+        std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} against {}\">\n", width,
+                                      height, escaped(yLabel), escaped(xLabel));
         out += grid();
         for (std::size_t i = 0; i < curves.size(); i++) out += line(curves[i], inks[i % inks.size()], i);
-        out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (left + right) / 2, height - 6, escaped(xLabel));
-        out += fmt::format("<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n</svg>\n", (top + bottom) / 2, escaped(yLabel));
+        out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (left + right) / 2, height - 6,
+                           escaped(xLabel));
+        out +=
+            fmt::format("<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n</svg>\n",
+                        (top + bottom) / 2, escaped(yLabel));
         return out;
     }
 
@@ -128,19 +145,25 @@ private:
     double placeY(double power) const { return bottom - (bottom - top) * (power - y.low) / (y.high - y.low); }
 
     std::string grid() const {
-        std::string out = fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" class=\"frame\"/>\n", left, top, right - left, bottom - top);
+        std::string out = fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" class=\"frame\"/>\n", left,
+                                      top, right - left, bottom - top);
         const auto ticks = [](const Span& span, auto tick) {
             for (double power = std::floor(span.low); power <= span.high; power++)
                 for (const double digit : {1.0, 2.0, 5.0}) {
                     const double at = power + std::log10(digit);
-                    if (at >= span.low - 1e-9 && at <= span.high + 1e-9) tick(at, fmt::format("{:.3g}", digit * std::pow(10, power)));
+                    if (at >= span.low - 1e-9 && at <= span.high + 1e-9)
+                        tick(at, fmt::format("{:.3g}", digit * std::pow(10, power)));
                 }
         };
         ticks(x, [&](double at, const std::string& text) {
-            out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n", placeX(at), top, bottom, bottom + 17, text);
+            out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" "
+                               "y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
+                               placeX(at), top, bottom, bottom + 17, text);
         });
         ticks(y, [&](double at, const std::string& text) {
-            out += fmt::format("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n", placeY(at), left, right, left - 6, placeY(at) + 4, text);
+            out += fmt::format("<line x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text x=\"{3}\" "
+                               "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
+                               placeY(at), left, right, left - 6, placeY(at) + 4, text);
         });
         return out;
     }
@@ -152,10 +175,14 @@ private:
         const double slope = fittedSlope(curve.xs, curve.ys);
         const std::string label = curve.name + (std::isfinite(slope) ? fmt::format(", slope {:.2f}", slope) : "");
         const double row = top + 16 + 22 * double(index);
-        std::string out = fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", points, ink);
+        std::string out =
+            fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", points, ink);
         for (std::size_t i = 0; i < curve.xs.size(); i++)
-            out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>", placeX(std::log10(curve.xs[i])), placeY(std::log10(curve.ys[i])), ink);
-        out += fmt::format("\n<rect x=\"{}\" y=\"{}\" width=\"16\" height=\"4\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n", right + 12, row - 6, ink, right + 34, row, escaped(label));
+            out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>",
+                               placeX(std::log10(curve.xs[i])), placeY(std::log10(curve.ys[i])), ink);
+        out += fmt::format(
+            "\n<rect x=\"{}\" y=\"{}\" width=\"16\" height=\"4\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
+            right + 12, row - 6, ink, right + 34, row, escaped(label));
         return out;
     }
 
@@ -165,7 +192,8 @@ private:
 };
 
 /// A curve of each layer, and of the render's own estimate of beauty.
-std::vector<Curve> curvesOf(const std::vector<ReportRow>& rows, double LayerError::* measure, bool root, bool overPasses, bool estimates) {
+std::vector<Curve> curvesOf(const std::vector<ReportRow>& rows, double LayerError::*measure, bool root, bool overPasses,
+                            bool estimates) {
     std::map<std::string, Curve> layers;
     Curve estimate{"beauty, estimated", {}, {}};
     for (const ReportRow& row : rows) {
@@ -193,18 +221,26 @@ std::string diagrams(const std::vector<ReportRow>& rows) {
     const auto add = [&](const char* title, const std::string& svg) {
         if (!svg.empty()) out += fmt::format("<h2>{}</h2>\n{}", title, svg);
     };
-    add("Relative error against time", Diagram("seconds of rendering", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, false, true)).svg());
-    add("Relative error against passes", Diagram("passes", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, true, true)).svg());
-    add("RMSE against time", Diagram("seconds of rendering", "RMSE", curvesOf(rows, &LayerError::rmse, false, false, false)).svg());
-    add("FLIP against time", Diagram("seconds of rendering", "mean FLIP", curvesOf(rows, &LayerError::flip, false, false, false)).svg());
+    add("Relative error against time",
+        Diagram("seconds of rendering", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, false, true))
+            .svg());
+    add("Relative error against passes",
+        Diagram("passes", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, true, true)).svg());
+    add("RMSE against time",
+        Diagram("seconds of rendering", "RMSE", curvesOf(rows, &LayerError::rmse, false, false, false)).svg());
+    add("FLIP against time",
+        Diagram("seconds of rendering", "mean FLIP", curvesOf(rows, &LayerError::flip, false, false, false)).svg());
     return out;
 }
 
 std::string lastRow(const ReportRow& row) {
     if (row.layers.empty()) return "";
-    std::string out = "<h2>After the last pass</h2>\n<div class=\"wide\"><table><tr><th>layer</th><th>RMSE</th><th>relMSE</th><th>mean error</th><th>FLIP</th></tr>\n";
+    std::string out =
+        "<h2>After the last pass</h2>\n<div "
+        "class=\"wide\"><table><tr><th>layer</th><th>RMSE</th><th>relMSE</th><th>mean error</th><th>FLIP</th></tr>\n";
     for (const auto& [name, e] : row.layers)
-        out += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:+.4g}</td><td>{:.4g}</td></tr>\n", name, e.rmse, e.relmse, e.meanError, e.flip);
+        out += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:+.4g}</td><td>{:.4g}</td></tr>\n", name,
+                           e.rmse, e.relmse, e.meanError, e.flip);
     return out + "</table></div>\n";
 }
 
@@ -220,18 +256,27 @@ dt { font-weight: 600; } dd { margin: 0 0 .4em 0; overflow-wrap: anywhere; })";
 
 } // namespace
 
-std::string reportPage(const std::vector<ReportRow>& rows, const Image& image, std::span<const uint> picture, const Image* reference,
-                       const std::vector<std::pair<std::string, std::string>>& facts) {
-    std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
-                                   "<title>vkpm: error against run time</title>\n<style>{}</style></head>\n<body>\n<h1>Error against run time</h1>\n", STYLE);
-    if (!rows.empty() && rows.back().estimate) page += fmt::format("<p>The render's own estimate after {} passes: {}.</p>\n", rows.back().passes, describe(*rows.back().estimate));
-    page += figure(image.size, picture, fmt::format("After {} passes, {:.2f} s of rendering", rows.empty() ? 0 : rows.back().passes, rows.empty() ? 0.0 : rows.back().seconds));
+std::string reportPage(const std::vector<ReportRow>& rows, const Image& image, std::span<const uint> picture,
+                       const Image* reference, const std::vector<std::pair<std::string, std::string>>& facts) {
+    std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta "
+                                   "name=\"viewport\" content=\"width=device-width\">"
+                                   "<title>vkpm: error against run "
+                                   "time</title>\n<style>{}</style></head>\n<body>\n<h1>Error against run time</h1>\n",
+                                   STYLE);
+    if (!rows.empty() && rows.back().estimate)
+        page += fmt::format("<p>The render's own estimate after {} passes: {}.</p>\n", rows.back().passes,
+                            describe(*rows.back().estimate));
+    page += figure(image.size, picture,
+                   fmt::format("After {} passes, {:.2f} s of rendering", rows.empty() ? 0 : rows.back().passes,
+                               rows.empty() ? 0.0 : rows.back().seconds));
     if (reference) page += errorMaps(image, *reference);
     page += diagrams(rows);
-    page += "<p>Slopes are those of straight lines through all points of a curve. The estimate is an upper bound that holds with a probability of 90 %.</p>\n";
+    page += "<p>Slopes are those of straight lines through all points of a curve. The estimate is an upper bound that "
+            "holds with a probability of 90 %.</p>\n";
     if (!rows.empty()) page += lastRow(rows.back());
     page += "<h2>The render</h2>\n<dl>\n";
-    for (const auto& [name, value] : facts) page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
+    for (const auto& [name, value] : facts)
+        page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
     return page + "</dl>\n</body>\n</html>\n";
 }
 

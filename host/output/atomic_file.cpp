@@ -20,17 +20,24 @@ namespace fs = std::filesystem;
 const char* whatHelps(int error) {
     switch (error) {
     case ENOSPC:
-    case EDQUOT: return "; free some space, or choose another folder";
-    case EFBIG: return "; raise the limit on the size of files (ulimit -f)";
+    case EDQUOT:
+        return "; free some space, or choose another folder";
+    case EFBIG:
+        return "; raise the limit on the size of files (ulimit -f)";
     case EACCES:
     case EPERM:
-    case EROFS: return "; choose a folder that you may write to";
+    case EROFS:
+        return "; choose a folder that you may write to";
     case ENOENT:
-    case ENOTDIR: return "; create the folder first, or choose another one";
-    case EISDIR: return "; choose a name that is not a folder's";
+    case ENOTDIR:
+        return "; create the folder first, or choose another one";
+    case EISDIR:
+        return "; choose a name that is not a folder's";
     case EMFILE:
-    case ENFILE: return "; raise the limit on open files (ulimit -n)";
-    default: return "";
+    case ENFILE:
+        return "; raise the limit on open files (ulimit -n)";
+    default:
+        return "";
     }
 }
 
@@ -146,7 +153,9 @@ void flushFolder(const fs::path& target) {
 } // namespace
 
 struct FileReplacement::Parts {
-    explicit Parts(const fs::path& path) : device(isDevice(path)), target(device ? path : resolve(path)), output(device ? Output(path, path, 0, false) : openBeside(target, path)) {}
+    explicit Parts(const fs::path& path)
+        : device(isDevice(path)), target(device ? path : resolve(path)),
+          output(device ? Output(path, path, 0, false) : openBeside(target, path)) {}
 
     bool device;
     fs::path target;

@@ -7,8 +7,8 @@
 
 namespace vkpm {
 
-/// A file that is written piece by piece and takes the place of what was there once it is whole, or not at all. A device or pipe gets
-/// all at the end. Throws std::runtime_error with file, call, cause and what helps.
+/// A file that is written piece by piece and takes the place of what was there once it is whole, or not at all. A
+/// device or pipe gets all at the end. Throws std::runtime_error with file, call, cause and what helps.
 class FileReplacement {
 public:
     explicit FileReplacement(const std::filesystem::path& path);
@@ -26,8 +26,8 @@ private:
 /// Throws std::runtime_error with file, call, cause and what helps.
 void replaceFile(const std::filesystem::path& path, std::span<const char> bytes);
 
-/// Throws as replaceFile would if a file could not be created there: to be asked before a long render. Removes what killed
-/// processes have left beside it.
+/// Throws as replaceFile would if a file could not be created there: to be asked before a long render. Removes what
+/// killed processes have left beside it.
 void requireWritable(const std::filesystem::path& path);
 
 } // namespace vkpm

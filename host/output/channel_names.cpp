@@ -28,7 +28,14 @@ std::string wordOf(std::string_view prefix) {
 /// Letters R, G, B and A for whatever stands for them.
 std::string withLetters(const std::string& name) {
     const std::string prefix = layerPrefix(name), last = name.substr(prefix.size());
-    for (const auto& [word, letter] : {std::pair("r", "R"), {"g", "G"}, {"b", "B"}, {"a", "A"}, {"red", "R"}, {"green", "G"}, {"blue", "B"}, {"alpha", "A"}})
+    for (const auto& [word, letter] : {std::pair("r", "R"),
+                                       {"g", "G"},
+                                       {"b", "B"},
+                                       {"a", "A"},
+                                       {"red", "R"},
+                                       {"green", "G"},
+                                       {"blue", "B"},
+                                       {"alpha", "A"}})
         if (lower(last) == word) return prefix + letter;
     return name;
 }
@@ -38,13 +45,16 @@ std::vector<std::string> coloursOf(const std::vector<std::string>& names) {
     const std::set<std::string> all(names.begin(), names.end());
     std::vector<std::string> colours;
     for (const std::string& name : names)
-        if (const std::string prefix = layerPrefix(name); name == prefix + "R" && all.contains(prefix + "G") && all.contains(prefix + "B")) colours.push_back(prefix);
+        if (const std::string prefix = layerPrefix(name);
+            name == prefix + "R" && all.contains(prefix + "G") && all.contains(prefix + "B"))
+            colours.push_back(prefix);
     return colours;
 }
 
 /// The prefix of beauty; nothing if no colour is known to be that.
 std::string beautyAmong(const std::vector<std::string>& colours) {
-    for (const char* word : {"combined", "beauty", "rgba", "rgb", "rgb_color", "rgb color", "color", "colour", "image", "<root>", "root", "final", "composite", "c", "ci", "effectsresult", "main"})
+    for (const char* word : {"combined", "beauty", "rgba", "rgb", "rgb_color", "rgb color", "color", "colour", "image",
+                             "<root>", "root", "final", "composite", "c", "ci", "effectsresult", "main"})
         for (const std::string& prefix : colours)
             if (wordOf(prefix) == word) return prefix;
     if (colours.size() != 1 || std::ranges::find(layerNames, wordOf(colours[0])) != layerNames.end()) return "";
@@ -61,7 +71,8 @@ std::vector<std::string> ourNames(const std::vector<std::string>& names) {
     if (std::ranges::find(colours, "") != colours.end()) return ours;
     const std::string beauty = beautyAmong(colours);
     if (beauty.empty()) return ours;
-    const std::string layer = wordOf(beauty) == "combined" ? beauty.substr(0, beauty.size() - std::string_view("Combined.").size()) : "";
+    const std::string layer =
+        wordOf(beauty) == "combined" ? beauty.substr(0, beauty.size() - std::string_view("Combined.").size()) : "";
     for (std::string& name : ours) {
         if (name.starts_with(beauty)) name.erase(0, beauty.size());
         else if (!layer.empty() && name.starts_with(layer)) name.erase(0, layer.size());

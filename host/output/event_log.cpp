@@ -7,7 +7,8 @@
 
 namespace vkpm {
 
-EventLog::EventLog(const std::optional<std::filesystem::path>& name, bool append) : path(name.value_or("")), appends(append), waits(name.has_value()) {}
+EventLog::EventLog(const std::optional<std::filesystem::path>& name, bool append)
+    : path(name.value_or("")), appends(append), waits(name.has_value()) {}
 
 void EventLog::open() {
     const std::lock_guard lock(writing);

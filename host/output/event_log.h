@@ -17,11 +17,12 @@ public:
     /// Without a file it is silent; `append` adds to what the file has.
     explicit EventLog(const std::optional<std::filesystem::path>& file, bool append);
 
-    /// Opens the file, once it is known that nothing is lost by that, and writes what was to be written before. Throws std::runtime_error
-    /// with file and cause.
+    /// Opens the file, once it is known that nothing is lost by that, and writes what was to be written before. Throws
+    /// std::runtime_error with file and cause.
     void open();
 
-    /// Writes one line, {"event": name, "seconds": since the log was made, ...}, and flushes it. If that fails, the log ends.
+    /// Writes one line, {"event": name, "seconds": since the log was made, ...}, and flushes it. If that fails, the log
+    /// ends.
     void write(const char* name, const nlohmann::ordered_json& members = nlohmann::ordered_json::object());
 
 private:

@@ -1,7 +1,7 @@
 /// Reading of OpenEXR files: the flat parts of a file as one picture.
-#include "output/exr.h"
 #include "error.h"
 #include "output/channel_names.h"
+#include "output/exr.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -34,7 +34,8 @@ void startThreads() {
 uvec2 sizeOf(const Imath::Box2i& window) {
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
-    if (width < 1 || height < 1 || width > MAX_PIXELS / height) throw InputError(fmt::format("found {}x{} pixels; allowed are 1 to {}", width, height, MAX_PIXELS));
+    if (width < 1 || height < 1 || width > MAX_PIXELS / height)
+        throw InputError(fmt::format("found {}x{} pixels; allowed are 1 to {}", width, height, MAX_PIXELS));
     return {static_cast<uint>(width), static_cast<uint>(height)};
 }
 
@@ -69,7 +70,9 @@ template <class Read> auto attempt(const fs::path& path, Read read) {
 
 } // namespace
 
-std::string describe(const PixelBox& window) { return fmt::format("{},{} to {},{}", window.low.x, window.low.y, window.high.x, window.high.y); }
+std::string describe(const PixelBox& window) {
+    return fmt::format("{},{} to {},{}", window.low.x, window.low.y, window.high.x, window.high.y);
+}
 
 struct ExrFile::Parts {
     explicit Parts(const fs::path& path) : file(path.c_str()) {}
@@ -117,7 +120,9 @@ ExrFile::ExrFile(const fs::path& file) : path(file) {
             entry.name = ours[index++];
             return !known.insert(entry.name).second; // a later part with the same names
         });
-        if (list.empty()) throw InputError(fmt::format("it has no channel with a value per pixel{}{}", skipped.empty() ? "" : "; found: ", skipped));
+        if (list.empty())
+            throw InputError(fmt::format("it has no channel with a value per pixel{}{}",
+                                         skipped.empty() ? "" : "; found: ", skipped));
     });
 }
 
@@ -134,12 +139,14 @@ Image ExrFile::header() const {
 Image ExrFile::read(std::span<const std::string> names, const PixelBox& region) const {
     const uvec2 size(region.high - region.low + 1);
     Image image{.size = size, .attributes = texts};
-    for (const std::string& name : names) image.channels.push_back({name, std::vector<float>(std::size_t(size.x) * size.y)});
+    for (const std::string& name : names)
+        image.channels.push_back({name, std::vector<float>(std::size_t(size.x) * size.y)});
     return attempt(path, [&] {
         for (int part = 0; part < parts->file.parts(); part++) {
             const Imath::Box2i data = parts->file.header(part).dataWindow();
             const std::size_t width = std::size_t(std::int64_t(data.max.x) - data.min.x + 1);
-            const bool cut = region.low.x + parts->corner.x != data.min.x || region.high.x + parts->corner.x != data.max.x;
+            const bool cut =
+                region.low.x + parts->corner.x != data.min.x || region.high.x + parts->corner.x != data.max.x;
             const int firstRow = region.low.y + parts->corner.y;
             // A part whose rows are wider is read some rows at a time into rows of its own width.
             const std::size_t step = cut ? std::min<std::size_t>(size.y, 64) : size.y;
@@ -159,9 +166,12 @@ Image ExrFile::read(std::span<const std::string> names, const PixelBox& region) 
                         copies.emplace_back(&channel, wide.size());
                         first = wide.emplace_back(rows * width).data();
                     }
-                    const auto address = reinterpret_cast<std::uintptr_t>(first) - sizeof(float) * std::uintptr_t(std::intptr_t(data.min.x)) -
+                    const auto address = reinterpret_cast<std::uintptr_t>(first) -
+                                         sizeof(float) * std::uintptr_t(std::intptr_t(data.min.x)) -
                                          sizeof(float) * width * std::uintptr_t(std::intptr_t(firstRow + int(row)));
-                    buffer.insert(entry->channel, Imf::Slice(entry->storage == Storage::bits ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(address), sizeof(float), sizeof(float) * width));
+                    buffer.insert(entry->channel,
+                                  Imf::Slice(entry->storage == Storage::bits ? Imf::UINT : Imf::FLOAT,
+                                             reinterpret_cast<char*>(address), sizeof(float), sizeof(float) * width));
                 }
                 if (buffer.begin() == buffer.end()) continue;
                 Imf::InputPart input(parts->file, part);
@@ -169,7 +179,9 @@ Image ExrFile::read(std::span<const std::string> names, const PixelBox& region) 
                 input.readPixels(firstRow + int(row), firstRow + int(row + rows) - 1);
                 const std::size_t skip = std::size_t(region.low.x + parts->corner.x - data.min.x);
                 for (const auto& [channel, index] : copies)
-                    for (std::size_t y = 0; y < rows; y++) std::copy_n(wide[index].data() + y * width + skip, size.x, channel->values.data() + (row + y) * size.x);
+                    for (std::size_t y = 0; y < rows; y++)
+                        std::copy_n(wide[index].data() + y * width + skip, size.x,
+                                    channel->values.data() + (row + y) * size.x);
             }
         }
         return std::move(image);
@@ -179,9 +191,12 @@ Image ExrFile::read(std::span<const std::string> names, const PixelBox& region) 
 void ExrFile::requireWhole() const {
     const PixelBox whole{glm::ivec2(0), glm::ivec2(pictureSize) - 1};
     for (const Entry& entry : list)
-        if (glm::any(glm::greaterThan(entry.window.low, whole.low)) || glm::any(glm::lessThan(entry.window.high, whole.high)))
-            throw InputError(fmt::format("{}: channel {} has values at {} alone (data window) of a picture of {}x{} pixels (display window); allowed: a file that has the whole picture", path.string(),
-                                         entry.inFile, describe(entry.window), pictureSize.x, pictureSize.y));
+        if (glm::any(glm::greaterThan(entry.window.low, whole.low)) ||
+            glm::any(glm::lessThan(entry.window.high, whole.high)))
+            throw InputError(fmt::format("{}: channel {} has values at {} alone (data window) of a picture of {}x{} "
+                                         "pixels (display window); allowed: a file that has the whole picture",
+                                         path.string(), entry.inFile, describe(entry.window), pictureSize.x,
+                                         pictureSize.y));
 }
 
 Image readExr(const fs::path& path) {

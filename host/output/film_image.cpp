@@ -37,7 +37,8 @@ vec3 beauty(const Pixel& pixel) {
 
 uint encodeSrgb(float linear) {
     const float c = std::clamp(linear, 0.0f, 1.0f);
-    return static_cast<uint>(std::lround(255 * (c > 0.0031308f ? 1.055f * std::pow(c, 1 / 2.4f) - 0.055f : 12.92f * c)));
+    return static_cast<uint>(
+        std::lround(255 * (c > 0.0031308f ? 1.055f * std::pow(c, 1 / 2.4f) - 0.055f : 12.92f * c)));
 }
 
 Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers) {
@@ -46,11 +47,15 @@ Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers) {
     Film film{pixels, {.size = size}};
     film.addVector("", "RGB", beauty);
     for (uint layer = 0; layer < LAYER_COUNT; ++layer)
-        if (asked(layer)) film.addVector(std::string(layerNames[layer]) + ".", "RGB", [=](const Pixel& pixel) { return pixel.mean.layers[layer]; });
+        if (asked(layer))
+            film.addVector(std::string(layerNames[layer]) + ".", "RGB",
+                           [=](const Pixel& pixel) { return pixel.mean.layers[layer]; });
     if (asked(ASK_ALBEDO)) film.addVector("albedo.", "RGB", [](const Pixel& pixel) { return pixel.mean.albedo; });
     if (asked(ASK_NORMAL)) film.addVector("normal.", "XYZ", [](const Pixel& pixel) { return pixel.mean.normal; });
     if (asked(ASK_DEPTH))
-        film.addChannel("depth.Z", [](const Pixel& pixel) { return pixel.mean.covered > 0 ? pixel.mean.depth / pixel.mean.covered : 0.0f; });
+        film.addChannel("depth.Z", [](const Pixel& pixel) {
+            return pixel.mean.covered > 0 ? pixel.mean.depth / pixel.mean.covered : 0.0f;
+        });
     if (asked(ASK_NOISE)) film.addVector("noise.", "RGB", [](const Pixel& pixel) { return pixel.noise; });
     if (asked(ASK_BIAS)) film.addVector("bias.", "RGB", [](const Pixel& pixel) { return pixel.mean.bias; });
     return std::move(film.image);

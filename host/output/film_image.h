@@ -6,9 +6,10 @@
 
 namespace vkpm {
 
-/// Beauty (R G B, the sum of the layers of light), and of the layers asked for (bits by place in layerNames): the five of light,
-/// albedo, normal, depth.Z (mean over the samples that saw a surface, 0 where none did) and noise (standard error of beauty).
-/// `pixels` are row by row from the top, size.x * size.y of them; radiance in W/(m^2 sr), depth in world units.
+/// Beauty (R G B, the sum of the layers of light), and of the layers asked for (bits by place in layerNames): the five
+/// of light, albedo, normal, depth.Z (mean over the samples that saw a surface, 0 where none did) and noise (standard
+/// error of beauty). `pixels` are row by row from the top, size.x * size.y of them; radiance in W/(m^2 sr), depth in
+/// world units.
 Image filmImage(std::span<const Pixel> pixels, uvec2 size, uint layers);
 
 /// The sum of a pixel's layers of light.

@@ -18,19 +18,50 @@ struct Column {
     uint layer;
 };
 constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
-    {"emission.R", 0}, {"emission.G", 0}, {"emission.B", 0}, {"direct.R", 1},         {"direct.G", 1},   {"direct.B", 1},
-    {"specular.R", 2}, {"specular.G", 2}, {"specular.B", 2}, {"caustic.R", 3},        {"caustic.G", 3},  {"caustic.B", 3},
-    {"indirect.R", 4}, {"indirect.G", 4}, {"indirect.B", 4}, {"albedo.R", 5},         {"albedo.G", 5},   {"albedo.B", 5},
-    {"normal.X", 6},   {"normal.Y", 6},   {"normal.Z", 6},   {"depth.Z", ASK_DEPTH},  {"covered.Y", ASK_DEPTH},
-    {"bias.R", 9},     {"bias.G", 9},     {"bias.B", 9},
-    {"fine.R", 8},     {"fine.G", 8},     {"fine.B", 8},     {"coarse.R", ASK_NOISE}, {"coarse.G", 8},   {"coarse.B", 8},
-    {"rest.R", 8},     {"rest.G", 8},     {"rest.B", 8},     {"square.Y", 9},
+    {"emission.R", 0},
+    {"emission.G", 0},
+    {"emission.B", 0},
+    {"direct.R", 1},
+    {"direct.G", 1},
+    {"direct.B", 1},
+    {"specular.R", 2},
+    {"specular.G", 2},
+    {"specular.B", 2},
+    {"caustic.R", 3},
+    {"caustic.G", 3},
+    {"caustic.B", 3},
+    {"indirect.R", 4},
+    {"indirect.G", 4},
+    {"indirect.B", 4},
+    {"albedo.R", 5},
+    {"albedo.G", 5},
+    {"albedo.B", 5},
+    {"normal.X", 6},
+    {"normal.Y", 6},
+    {"normal.Z", 6},
+    {"depth.Z", ASK_DEPTH},
+    {"covered.Y", ASK_DEPTH},
+    {"bias.R", 9},
+    {"bias.G", 9},
+    {"bias.B", 9},
+    {"fine.R", 8},
+    {"fine.G", 8},
+    {"fine.B", 8},
+    {"coarse.R", ASK_NOISE},
+    {"coarse.G", 8},
+    {"coarse.B", 8},
+    {"rest.R", 8},
+    {"rest.G", 8},
+    {"rest.B", 8},
+    {"square.Y", 9},
 }};
 
 /// Whether a column is a sum of what the file has as a mean.
 bool hasMean(std::size_t column) { return column < 21 || (column > 22 && column < 26); }
 
-std::string stateName(std::size_t run, std::size_t column) { return fmt::format("state{}.{}", run, COLUMN_NAMES[column].name); }
+std::string stateName(std::size_t run, std::size_t column) {
+    return fmt::format("state{}.{}", run, COLUMN_NAMES[column].name);
+}
 std::string residueName(std::size_t column) { return fmt::format("residue0.{}", COLUMN_NAMES[column].name); }
 
 const Channel* channelOf(const Image& image, const std::string& name) {
@@ -49,7 +80,8 @@ float& at(PixelSum& sum, std::size_t column) { return reinterpret_cast<float*>(&
 float at(const PixelSum& sum, std::size_t column) { return reinterpret_cast<const float*>(&sum)[column]; }
 
 /// What the mean over all passes and the sums of the later runs say of the first run's sum.
-template <class Runs> float predicted(float mean, uint passes, const Runs& runs, std::size_t pixel, std::size_t column) {
+template <class Runs>
+float predicted(float mean, uint passes, const Runs& runs, std::size_t pixel, std::size_t column) {
     double sum = double(mean) * passes; // each operation by itself, so that no compiler fuses two
     for (std::size_t run = 1; run < runs.size(); run++) sum -= double(at(runs[run][pixel], column));
     return float(sum);
@@ -61,7 +93,9 @@ uint residue(float value, float prediction) {
     return static_cast<uint>(apart) << 1 ^ static_cast<uint>(apart >> 31);
 }
 
-float fromResidue(uint bits, float prediction) { return std::bit_cast<float>(std::bit_cast<uint>(prediction) + (bits >> 1 ^ -(bits & 1))); }
+float fromResidue(uint bits, float prediction) {
+    return std::bit_cast<float>(std::bit_cast<uint>(prediction) + (bits >> 1 ^ -(bits & 1)));
+}
 
 /// "12:16" at the front of `text`, which moves on behind it.
 PassRange takeRange(std::string_view& text) {
@@ -80,21 +114,27 @@ PassRange takeRange(std::string_view& text) {
 
 } // namespace
 
-void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes, uint layers, bool exactMeans) {
+void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes,
+             uint layers, bool exactMeans) {
     const std::vector<std::size_t> columns = columnsOf(layers);
     const std::size_t block = 256; // pixels that stay in the cache
     for (std::size_t run = 0; run < sums.size(); run++) {
         const std::size_t firstChannel = rows.channels.size();
         const auto isResidue = [&](std::size_t k) { return run == 0 && exactMeans && hasMean(k); };
         for (const std::size_t k : columns)
-            rows.channels.push_back({isResidue(k) ? residueName(k) : stateName(run, k), std::vector<float>(pixels.size()), isResidue(k) ? Storage::bits : Storage::float32});
+            rows.channels.push_back({isResidue(k) ? residueName(k) : stateName(run, k),
+                                     std::vector<float>(pixels.size()),
+                                     isResidue(k) ? Storage::bits : Storage::float32});
         for (std::size_t first = 0; first < pixels.size(); first += block)
             for (std::size_t c = 0; c < columns.size(); c++) {
                 const std::size_t k = columns[c];
                 std::vector<float>& values = rows.channels[firstChannel + c].values;
                 for (std::size_t i = first; i < std::min(first + block, pixels.size()); i++) {
                     const float sum = at(sums[run][i], k);
-                    values[i] = isResidue(k) ? std::bit_cast<float>(residue(sum, predicted(reinterpret_cast<const float*>(&pixels[i].mean)[k], passes, sums, i, k))) : sum;
+                    values[i] = isResidue(k) ? std::bit_cast<float>(residue(
+                                                   sum, predicted(reinterpret_cast<const float*>(&pixels[i].mean)[k],
+                                                                  passes, sums, i, k)))
+                                             : sum;
                 }
             }
     }
@@ -110,13 +150,15 @@ std::vector<PassRange> runsOf(const Image& image) {
     const auto found = image.attributes.find("runs");
     if (found == image.attributes.end() || found->second.empty()) {
         const bool isPicture = image.attributes.contains("passes") && image.attributes.contains("settings");
-        throw InputError(isPicture ? "was saved with --no-resume: it has a picture, but not the sums over its passes, from which a render goes on or is merged"
+        throw InputError(isPicture ? "was saved with --no-resume: it has a picture, but not the sums over its passes, "
+                                     "from which a render goes on or is merged"
                                    : "is not a render of vkpm: it has no attribute vkpm/runs");
     }
     std::vector<PassRange> runs;
     for (std::string_view text = found->second; !text.empty();) {
         runs.push_back(takeRange(text));
-        if (runs.size() > 1 && runs[runs.size() - 2].end != runs.back().begin) throw InputError("its attribute vkpm/runs is damaged");
+        if (runs.size() > 1 && runs[runs.size() - 2].end != runs.back().begin)
+            throw InputError("its attribute vkpm/runs is damaged");
     }
     return runs;
 }
@@ -125,7 +167,8 @@ std::vector<std::string> channelsOfSums(const Image& header, std::size_t runs, u
     std::vector<std::string> names;
     for (std::size_t run = 0; run < runs; run++)
         for (const std::size_t k : columnsOf(layers)) {
-            const bool asResidue = run == 0 && channelOf(header, residueName(k)) && channelOf(header, COLUMN_NAMES[k].name);
+            const bool asResidue =
+                run == 0 && channelOf(header, residueName(k)) && channelOf(header, COLUMN_NAMES[k].name);
             if (asResidue) names.insert(names.end(), {residueName(k), COLUMN_NAMES[k].name});
             else if (channelOf(header, stateName(run, k))) names.push_back(stateName(run, k));
             else throw InputError(fmt::format("has no channel {}", stateName(run, k)));
@@ -134,7 +177,8 @@ std::vector<std::string> channelsOfSums(const Image& header, std::size_t runs, u
 }
 
 std::vector<std::vector<PixelSum>> sumsOf(const Image& rows, std::size_t runs, uint passes, uint layers) {
-    std::vector<std::vector<PixelSum>> sums(runs, std::vector<PixelSum>(std::size_t(rows.size.x) * rows.size.y, PixelSum{}));
+    std::vector<std::vector<PixelSum>> sums(runs,
+                                            std::vector<PixelSum>(std::size_t(rows.size.x) * rows.size.y, PixelSum{}));
     for (std::size_t run = runs; run-- > 0;) // the first one last, as it may depend on the others
         for (const std::size_t k : columnsOf(layers)) {
             if (const Channel* state = channelOf(rows, stateName(run, k))) {
@@ -143,13 +187,15 @@ std::vector<std::vector<PixelSum>> sumsOf(const Image& rows, std::size_t runs, u
             }
             const Channel &bits = *channelOf(rows, residueName(k)), &means = *channelOf(rows, COLUMN_NAMES[k].name);
             for (std::size_t i = 0; i < sums[run].size(); i++)
-                at(sums[run][i], k) = fromResidue(std::bit_cast<uint>(bits.values[i]), predicted(means.values[i], passes, sums, i, k));
+                at(sums[run][i], k) =
+                    fromResidue(std::bit_cast<uint>(bits.values[i]), predicted(means.values[i], passes, sums, i, k));
         }
     return sums;
 }
 
 std::string describe(PassRange passes) {
-    return passes.end - passes.begin == 1 ? fmt::format("pass {}", passes.begin) : fmt::format("passes {} to {}", passes.begin, passes.end - 1);
+    return passes.end - passes.begin == 1 ? fmt::format("pass {}", passes.begin)
+                                          : fmt::format("passes {} to {}", passes.begin, passes.end - 1);
 }
 
 } // namespace vkpm

@@ -7,11 +7,12 @@
 
 namespace vkpm {
 
-/// Adds to some rows of an image the sums of runs of passes as channels: state<i>.* of run i, of what layers (bits by place in
-/// layerNames) need, and no more. `passes` of all runs together have the means that `pixels` say. With `exactMeans`, if these are in
-/// the file as they are, most sums of the first run are kept as residue0.*: how many floats they are from what the means say, which
-/// takes few bytes.
-void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes, uint layers, bool exactMeans);
+/// Adds to some rows of an image the sums of runs of passes as channels: state<i>.* of run i, of what layers (bits by
+/// place in layerNames) need, and no more. `passes` of all runs together have the means that `pixels` say. With
+/// `exactMeans`, if these are in the file as they are, most sums of the first run are kept as residue0.*: how many
+/// floats they are from what the means say, which takes few bytes.
+void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::span<const PixelSum>> sums, uint passes,
+             uint layers, bool exactMeans);
 
 /// The runs that an image or its header says it has, ascending and adjacent. Throws InputError, without the file's
 /// name, if it has none or they make no sense.
@@ -20,7 +21,8 @@ std::vector<PassRange> runsOf(const Image& image);
 /// "0:16 16:17", as the attribute "runs" has them.
 std::string runsText(std::span<const PassRange> runs);
 
-/// The channels that sumsOf() needs of a file with these channels. Throws InputError, without the file's name, if some are missing.
+/// The channels that sumsOf() needs of a file with these channels. Throws InputError, without the file's name, if some
+/// are missing.
 std::vector<std::string> channelsOfSums(const Image& header, std::size_t runs, uint layers);
 
 /// The sums of all runs, of some rows.

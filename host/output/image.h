@@ -7,7 +7,8 @@
 
 namespace vkpm {
 
-/// How a channel's values are kept in a file: as they are, as the nearest 16-bit floats, or as the bits of whole numbers.
+/// How a channel's values are kept in a file: as they are, as the nearest 16-bit floats, or as the bits of whole
+/// numbers.
 enum class Storage { float32, half, bits };
 
 struct Channel {

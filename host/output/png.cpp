@@ -33,8 +33,8 @@ int paeth(int left, int up, int corner) {
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/// Rows of 3 bytes a pixel, each with a byte before it that says by which filter it was predicted: none, left, up, or Paeth's, whichever
-/// leaves the least sum of differences.
+/// Rows of 3 bytes a pixel, each with a byte before it that says by which filter it was predicted: none, left, up, or
+/// Paeth's, whichever leaves the least sum of differences.
 Bytes filtered(uvec2 size, std::span<const uint> rgba8) {
     const std::size_t width = 3 * std::size_t(size.x);
     Bytes result, before(width + 3, 0), row(width + 3, 0); // three zeros to the left
@@ -43,7 +43,8 @@ Bytes filtered(uvec2 size, std::span<const uint> rgba8) {
     for (Bytes& bytes : tried) bytes.resize(width);
     for (std::size_t y = 0; y < size.y; y++) {
         for (std::size_t x = 0; x < size.x; x++)
-            for (std::size_t c = 0; c < 3; c++) row[3 + 3 * x + c] = static_cast<unsigned char>(rgba8[y * size.x + x] >> 8 * c & 255u);
+            for (std::size_t c = 0; c < 3; c++)
+                row[3 + 3 * x + c] = static_cast<unsigned char>(rgba8[y * size.x + x] >> 8 * c & 255u);
         std::array<std::uint64_t, 4> sums{};
         for (std::size_t i = 0; i < width; i++) {
             const std::array<int, 4> predicted{0, row[i], before[i + 3], paeth(row[i], before[i + 3], before[i])};
@@ -61,7 +62,8 @@ Bytes filtered(uvec2 size, std::span<const uint> rgba8) {
 }
 
 Bytes deflated(const Bytes& raw) {
-    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(libdeflate_alloc_compressor(6), libdeflate_free_compressor);
+    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+        libdeflate_alloc_compressor(6), libdeflate_free_compressor);
     if (!compressor) throw std::bad_alloc();
     Bytes small(libdeflate_zlib_compress_bound(compressor.get(), raw.size()));
     small.resize(libdeflate_zlib_compress(compressor.get(), raw.data(), raw.size(), small.data(), small.size()));
@@ -84,6 +86,8 @@ std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8) {
     return png;
 }
 
-void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8) { replaceFile(path, encodePng(size, rgba8)); }
+void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8) {
+    replaceFile(path, encodePng(size, rgba8));
+}
 
 } // namespace vkpm

@@ -38,15 +38,19 @@ size_t terminalColumns(std::FILE* file) {
 
 } // namespace
 
-std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar, double error) {
+std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar,
+                         double error) {
     const bool done = finished >= goal.passes;
     const uint rendered = finished - goal.first;
     const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
     const double inverseDistance = error > 0 ? goal.error * goal.error / (error * error) : 0;
-    const double part = std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, inverseDistance}), 0.0, most);
-    const double left = rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
+    const double part =
+        std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, inverseDistance}), 0.0, most);
+    const double left =
+        rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
     const std::string passes = goal.passes == NONE ? "" : fmt::format("/{}", goal.passes);
-    std::string line = fmt::format("pass {}{}  {} %  {} elapsed", finished, passes, uint(100 * part), clockText(seconds));
+    std::string line =
+        fmt::format("pass {}{}  {} %  {} elapsed", finished, passes, uint(100 * part), clockText(seconds));
     const bool knownEnd = goal.passes != NONE || std::isfinite(goal.seconds);
     if (rendered > 0 && !done && knownEnd) line += fmt::format("  {} left", clockText(left));
     if (error > 0) line += fmt::format("  error {:.2g} %", 100 * error);
@@ -59,7 +63,8 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
 }
 
 Progress::Progress(const Goal& aim, bool quiet, std::FILE* out)
-    : goal(aim), file(quiet ? nullptr : out), terminal(::isatty(::fileno(out)) == 1), finished(aim.first), shown(aim.first) {
+    : goal(aim), file(quiet ? nullptr : out), terminal(::isatty(::fileno(out)) == 1), finished(aim.first),
+      shown(aim.first) {
     if (file && terminal) draw(0);
 }
 

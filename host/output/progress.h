@@ -11,16 +11,18 @@ namespace vkpm {
 
 /// What a render is to reach, and where it begins: whichever of passes, seconds and error comes first ends it.
 struct Goal {
-    uint passes;      // NONE if they do not count
+    uint passes; // NONE if they do not count
     double seconds = std::numeric_limits<double>::infinity();
     uint first = 0;   // passes that were there before
     double error = 0; // relative
 };
 
 /// Passes done, percent, time elapsed and left, and rays per second, in at most `columns` characters; a bar if
-/// there is room for one and `bar` is set. Time left comes from the mean of the finished passes. `error` is the last estimate, if there is
-/// one; it falls as the root of time at best, so that progress towards a goal goes with its square.
-std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar, double error = 0);
+/// there is room for one and `bar` is set. Time left comes from the mean of the finished passes. `error` is the last
+/// estimate, if there is one; it falls as the root of time at best, so that progress towards a goal goes with its
+/// square.
+std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar,
+                         double error = 0);
 
 /// Reports to `file` (stderr); ends its line when destroyed, and writes nothing between an interrupt and that.
 class Progress {
@@ -50,12 +52,12 @@ private:
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     uint finished;
     std::uint64_t rays = 0;
-    uint shown;              // passes finished at the last report
-    double lastSeconds = 0;  // of the last update
+    uint shown;             // passes finished at the last report
+    double lastSeconds = 0; // of the last update
     double lastError = 0;
-    double reported = 0;     // time of the last report
-    double interval = 0;     // least time between reports
-    size_t drawn = 0;        // characters on the line
+    double reported = 0; // time of the last report
+    double interval = 0; // least time between reports
+    size_t drawn = 0;    // characters on the line
 };
 
 } // namespace vkpm

@@ -35,7 +35,10 @@ Json featuresJson(const Features& features) {
 
 Json radiiJson(const std::optional<GatherRadii>& radii) {
     if (!radii) return nullptr;
-    return {{"smallest", radii->smallest}, {"typical", radii->typical}, {"greatest", radii->greatest}, {"chosen_by", radii->given ? "user" : "program"}};
+    return {{"smallest", radii->smallest},
+            {"typical", radii->typical},
+            {"greatest", radii->greatest},
+            {"chosen_by", radii->given ? "user" : "program"}};
 }
 
 std::string statisticsJson(const Statistics& statistics) {
@@ -43,9 +46,8 @@ std::string statisticsJson(const Statistics& statistics) {
     object["device"] = statistics.device;
     object["seed"] = statistics.seed;
     object["passes"] = statistics.passes;
-    object["seconds"] = {{"total", statistics.totalSeconds},
-                         {"setup", statistics.setupSeconds},
-                         {"render", statistics.renderSeconds}};
+    object["seconds"] = {
+        {"total", statistics.totalSeconds}, {"setup", statistics.setupSeconds}, {"render", statistics.renderSeconds}};
     object["stages"] = sums(statistics.stages);
     object["rays"] = statistics.rays;
     object["photons"] = {{"global", photonsJson(statistics.global)}, {"caustic", photonsJson(statistics.caustic)}};
@@ -57,7 +59,8 @@ std::string statisticsJson(const Statistics& statistics) {
     object["needed"] = statistics.needed;
     object["left_out"] = statistics.leftOut;
     object["error"] = nullptr;
-    if (const auto& e = statistics.error) object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"confidence", 0.9}};
+    if (const auto& e = statistics.error)
+        object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"confidence", 0.9}};
     object["nonfinite"] = statistics.nonfinite;
     object["warnings"] = statistics.warnings;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -4,8 +4,8 @@
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,9 +33,9 @@ struct Statistics {
     std::string device;
     uint seed = 0;
     uint passes = 0;
-    double totalSeconds = 0;  // wall clock of the program
-    double setupSeconds = 0;  // until the first pass
-    double renderSeconds = 0; // all passes
+    double totalSeconds = 0;                              // wall clock of the program
+    double setupSeconds = 0;                              // until the first pass
+    double renderSeconds = 0;                             // all passes
     std::vector<std::pair<std::string, double>> stages{}; // seconds; a name that occurs twice is summed
     std::uint64_t rays = 0;                               // of every kind, over all passes
     PhotonCounts global{};
@@ -49,7 +49,7 @@ struct Statistics {
     std::vector<std::string> needed{};  // what the render has, and why
     std::vector<std::string> leftOut{}; // what it does without, and why
     std::optional<ErrorEstimate> error{};
-    std::uint64_t nonfinite = 0;      // samples that count as black
+    std::uint64_t nonfinite = 0; // samples that count as black
     std::vector<std::string> warnings{};
 };
 

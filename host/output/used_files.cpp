@@ -21,13 +21,15 @@ static fs::path placeOf(fs::path path) {
 bool areOneFile(const fs::path& a, const fs::path& b) {
     std::error_code error;
     const fs::file_status one = fs::status(a, error), other = fs::status(b, error);
-    if (fs::exists(one) && fs::exists(other)) return fs::is_regular_file(one) && fs::is_regular_file(other) && fs::equivalent(a, b, error);
+    if (fs::exists(one) && fs::exists(other))
+        return fs::is_regular_file(one) && fs::is_regular_file(other) && fs::equivalent(a, b, error);
     return !fs::exists(one) && !fs::exists(other) && placeOf(a) == placeOf(b);
 }
 
 void requireApart(std::span<const UsedFile> written, std::span<const UsedFile> read) {
     const auto refuse = [](const UsedFile& output, const UsedFile& other) {
-        throw InputError(fmt::format("{}: found \"{}\", the same file as {} (\"{}\"); allowed: a file of its own", output.what, output.path.string(), other.what, other.path.string()));
+        throw InputError(fmt::format("{}: found \"{}\", the same file as {} (\"{}\"); allowed: a file of its own",
+                                     output.what, output.path.string(), other.what, other.path.string()));
     };
     for (std::size_t i = 0; i < written.size(); i++) {
         for (const UsedFile& other : written.first(i))

@@ -12,7 +12,8 @@ struct UsedFile {
     std::filesystem::path path;
 };
 
-/// Whether two names stand for one file that has a content of its own: links and other spellings count, devices and pipes do not.
+/// Whether two names stand for one file that has a content of its own: links and other spellings count, devices and
+/// pipes do not.
 bool areOneFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Throws InputError if a file that is to be written is one that is read, or another that is written.

@@ -10,11 +10,12 @@
 
 namespace vkpm {
 
-// What paths of a small picture mark, in pixels of it: those of caustics what lies between two of them, gather rays, which are few
-// and go everywhere, what lies about.
+// What paths of a small picture mark, in pixels of it: those of caustics what lies between two of them, gather rays,
+// which are few and go everywhere, what lies about.
 const float pixelReach = 2, rayReach = 8;
 
-CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set, uint batch)
+CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
+                         uint batch)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batch)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
@@ -36,7 +37,9 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
 void CameraPaths::castShadowRays(Recording& recording) {
     const Buffer<Queue>& queues = compaction.queues;
     const Ptr<Queue> queue{queues.address + QUEUE_SHADOW * sizeof(Queue)};
-    if (shadow) recording.run(*shadow, queues, QUEUE_SHADOW, {scene.address, shadowRays, samples, queue, compaction.list, size});
+    if (shadow)
+        recording.run(*shadow, queues, QUEUE_SHADOW,
+                      {scene.address, shadowRays, samples, queue, compaction.list, size});
 }
 
 /// Answers the questions of a queue to a map, or marks where they were asked.
@@ -49,15 +52,33 @@ void CameraPaths::queryPhotonMap(Recording& recording, const Batch& batch, uint 
     }
     const VisibleCells::Map& marks = kind == QUEUE_CAUSTIC ? batch.maps.marks->caustic : batch.maps.marks->global;
     const float reach = kind == QUEUE_CAUSTIC ? pixelReach : rayReach;
-    recording.run(batch.maps.marks->kernel, compaction.queues, kind, {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
+    recording.run(batch.maps.marks->kernel, compaction.queues, kind,
+                  {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
 }
 
 void CameraPaths::bounce(Recording& recording, const Batch& batch, uint index) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list, compaction.flags,
-                   size, batch.first, batch.sequence, batch.index, settings.seed, index, features.hasCausticMap, batch.maps.nearDistance, pixelAngle,
+                  {scene.address,
+                   paths,
+                   hits,
+                   samples,
+                   shadowRays,
+                   queries,
+                   splits,
+                   queues,
+                   compaction.list,
+                   compaction.flags,
+                   size,
+                   batch.first,
+                   batch.sequence,
+                   batch.index,
+                   settings.seed,
+                   index,
+                   features.hasCausticMap,
+                   batch.maps.nearDistance,
+                   pixelAngle,
                    settings.integrator});
     compaction.compact(recording);
 
@@ -85,8 +106,8 @@ RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps
     pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
     compaction.start(count);
     recording.run(eye, count,
-                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass, settings.seed,
-                   settings.showPoints, split.has_value()});
+                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass,
+                   settings.seed, settings.showPoints, split.has_value()});
     RayCounts rays = follow(recording, batch, 0);
     if (!split) return rays;
 
@@ -95,8 +116,8 @@ RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps
         const Batch gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
         compaction.start(count);
         recording.run(*split, count,
-                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, first, count, gathering.index, settings.seed,
-                       1 / float(gatherRays)});
+                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, first, count,
+                       gathering.index, settings.seed, 1 / float(gatherRays)});
         compaction.compact(recording);
         castShadowRays(recording);
         rays += follow(recording, gathering, 1);

@@ -25,8 +25,8 @@ struct VisibleCells {
 struct PhotonMaps {
     PhotonMap global{};
     PhotonMap caustic{};
-    std::vector<PhotonMap> narrow{}; // of caustics, asked first: the narrowest discs first
-    float nearDistance = 0; // a gather ray shorter than this goes on
+    std::vector<PhotonMap> narrow{};     // of caustics, asked first: the narrowest discs first
+    float nearDistance = 0;              // a gather ray shorter than this goes on
     const VisibleCells* marks = nullptr; // the places are marked there, and nothing is gathered
 };
 

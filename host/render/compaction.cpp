@@ -8,8 +8,9 @@ namespace vkpm {
 
 Compaction::Compaction(Gpu& gpu, const std::string& name, uint capacity, uint kindCount)
     : queues(gpu, name + " queues", kindCount), list(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
-      flags(gpu, name + " flags", capacity), kinds(kindCount), blocks((capacity + COMPACTION_BLOCK - 1) / COMPACTION_BLOCK),
-      nextQueues(gpu, name + " queues", kindCount), nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
+      flags(gpu, name + " flags", capacity), kinds(kindCount),
+      blocks((capacity + COMPACTION_BLOCK - 1) / COMPACTION_BLOCK), nextQueues(gpu, name + " queues", kindCount),
+      nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
       sums(gpu, name + " sums", std::uint64_t(blocks) * kindCount + 1), tally(gpu, "compact_count"), scan(gpu, "scan"),
       scatter(gpu, "compact") {}
 

@@ -30,8 +30,8 @@ double relative(const dvec3& squares, const dvec3& truth) { return meanOf(square
 
 const uint truthReach = 2; // pixels around
 
-/// What a pixel shows, drawn towards the mean of the 5 x 5 pixels around it, the more so the noisier it is compared to how these
-/// differ: the mean of two normal distributions' product (Bishop 2006, eq. 2.141).
+/// What a pixel shows, drawn towards the mean of the 5 x 5 pixels around it, the more so the noisier it is compared to
+/// how these differ: the mean of two normal distributions' product (Bishop 2006, eq. 2.141).
 dvec3 likelyTruth(const std::vector<dvec3>& colors, const Pixel& pixel, uvec2 size, uint x, uint y) {
     const uint reach = truthReach;
     dvec3 sum{0}, squares{0};
@@ -54,8 +54,8 @@ dvec3 likelyTruth(const std::vector<dvec3>& colors, const Pixel& pixel, uvec2 si
 
 double luminance(const dvec3& color) { return glm::dot(color, dvec3(0.2126, 0.7152, 0.0722)); }
 
-/// The square of the bias of the luminance, less the part of it that is noise of its estimate: may be negative, so that means of
-/// it are right.
+/// The square of the bias of the luminance, less the part of it that is noise of its estimate: may be negative, so that
+/// means of it are right.
 double squaredBias(const Pixel& pixel) {
     const double bias = luminance(dvec3(pixel.mean.bias)), noise = pixel.biasNoise;
     return bias * bias - noise * noise;
@@ -67,7 +67,8 @@ double studentQuantile(uint freedom) {
     if (freedom < few.size()) return few[freedom];
     const double z = twoSided90, n = freedom;
     const double z2 = z * z;
-    return z + z * (z2 + 1) / (4 * n) + z * ((5 * z2 + 16) * z2 + 3) / (96 * n * n) + z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * n * n * n);
+    return z + z * (z2 + 1) / (4 * n) + z * ((5 * z2 + 16) * z2 + 3) / (96 * n * n) +
+           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * n * n * n);
 }
 
 struct Squares {
@@ -87,14 +88,15 @@ double rootOfMean(double sum, double count) { return std::sqrt(std::max(0.0, sum
 ErrorEstimate estimateError(std::span<const Pixel> pixels, uvec2 size) {
     return estimateError(
         [&](uint firstRow, uint rows) {
-            const auto part = pixels.subspan(std::size_t(firstRow) * size.x, std::size_t(rows) * size.x);
-            return std::vector<Pixel>(part.begin(), part.end());
+        const auto part = pixels.subspan(std::size_t(firstRow) * size.x, std::size_t(rows) * size.x);
+        return std::vector<Pixel>(part.begin(), part.end());
         },
         size);
 }
 
 /// Squared errors of the pixels of some rows.
-static void squaresOf(const std::function<std::vector<Pixel>(uint, uint)>& source, uvec2 size, uint firstRow, uint rows, Squares* squares) {
+static void squaresOf(const std::function<std::vector<Pixel>(uint, uint)>& source, uvec2 size, uint firstRow, uint rows,
+                      Squares* squares) {
     const uint first = firstRow - std::min(firstRow, truthReach), end = std::min(firstRow + rows + truthReach, size.y);
     const std::vector<Pixel> pixels = source(first, end - first);
     std::vector<dvec3> colors;
@@ -103,7 +105,8 @@ static void squaresOf(const std::function<std::vector<Pixel>(uint, uint)>& sourc
         for (uint x = 0; x < size.x; x++) {
             const Pixel& pixel = pixels[std::size_t(y) * size.x + x];
             const dvec3 truth = likelyTruth(colors, pixel, {size.x, end - first}, x, y);
-            *squares++ = {relative(dvec3(pixel.noise) * dvec3(pixel.noise), truth), squaredBias(pixel) / (luminance(truth) * luminance(truth) + 0.01)};
+            *squares++ = {relative(dvec3(pixel.noise) * dvec3(pixel.noise), truth),
+                          squaredBias(pixel) / (luminance(truth) * luminance(truth) + 0.01)};
         }
 }
 
@@ -150,7 +153,8 @@ vec3 halfInterval(const Pixel& pixel, uint freedom) {
 }
 
 std::string describe(const ErrorEstimate& e) {
-    return fmt::format("error {:.2g} % (noise {:.2g} %, bias {:.2g} %), 90 % sure", 100 * e.error, 100 * e.noise, 100 * e.bias);
+    return fmt::format("error {:.2g} % (noise {:.2g} %, bias {:.2g} %), 90 % sure", 100 * e.error, 100 * e.noise,
+                       100 * e.bias);
 }
 
 } // namespace vkpm

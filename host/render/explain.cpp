@@ -14,7 +14,8 @@ std::string mapAbsent(bool needed, bool caustic, const Features& features, const
     if (caustic && !features.hasMirror && !features.hasGlass) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
     if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
-    const bool uses = settings.integrator == INTEGRATOR_PHOTON || (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic == caustic);
+    const bool uses = settings.integrator == INTEGRATOR_PHOTON ||
+                      (settings.integrator == INTEGRATOR_PHOTON_MAP && settings.showCaustic == caustic);
     return uses ? "nobody asked for a layer that needs it" : "the integrator does not use it";
 }
 
@@ -22,9 +23,11 @@ std::string mapAbsent(bool needed, bool caustic, const Features& features, const
 std::string layerAbsent(uint layer, const Features& features, const Settings& settings) {
     const bool specular = features.hasMirror || features.hasGlass;
     if (layer >= LAYER_COUNT) return "nobody asked for it";
-    if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR) return "the scene has no diffuse surface";
+    if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR)
+        return "the scene has no diffuse surface";
     if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
-    const bool finds = settings.integrator == INTEGRATOR_LIGHT ? layer == LAYER_CAUSTIC : settings.integrator != INTEGRATOR_DIRECT;
+    const bool finds =
+        settings.integrator == INTEGRATOR_LIGHT ? layer == LAYER_CAUSTIC : settings.integrator != INTEGRATOR_DIRECT;
     if (finds && (layer == LAYER_CAUSTIC ? settings.causticPhotons : settings.photons) == 0)
         return "no photons were asked for";
     return "the integrator does not find it";
@@ -48,7 +51,11 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     };
     const auto layer = [&](const char* name, uint needed, uint index) {
         const bool asked = (settings.layers >> index & 1) != 0;
-        because(name, needed ? "" : !asked ? "nobody asked for it" : layerAbsent(index, f, settings), "the picture shows it");
+        because(name,
+                needed   ? ""
+                : !asked ? "nobody asked for it"
+                         : layerAbsent(index, f, settings),
+                "the picture shows it");
     };
     has("hasTriangles", f.hasTriangles, "triangles");
     has("hasSpheres", f.hasSpheres, "spheres");
@@ -65,8 +72,13 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasTriangleLights", f.hasTriangleLights, "meshes that emit");
     has("hasSphereLights", f.hasSphereLights, "spheres that emit");
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
-    because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light", "photons of a light far away are aimed at the scene");
-    because("hasGuide", f.hasGuide ? "" : f.hasGlobalMap || f.hasCausticMap ? "most photons are useful, or none, or it is not known yet" : "there is no photon map", "photons are sent where the eye looks");
+    because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light",
+            "photons of a light far away are aimed at the scene");
+    because("hasGuide",
+            f.hasGuide                          ? ""
+            : f.hasGlobalMap || f.hasCausticMap ? "most photons are useful, or none, or it is not known yet"
+                                                : "there is no photon map",
+            "photons are sent where the eye looks");
     because("hasGlobalMap", mapAbsent(f.hasGlobalMap, false, f, settings), "the integrator gathers from it");
     because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
     because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");
@@ -80,7 +92,11 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     layer("hasNormal", f.hasNormal, ASK_NORMAL);
     layer("hasDepth", f.hasDepth, ASK_DEPTH);
     layer("hasNoise", f.hasNoise, ASK_NOISE);
-    because("hasBias", f.hasBias ? "" : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it" : "nothing is read from a photon map", "photon maps blur");
+    because("hasBias",
+            f.hasBias                            ? ""
+            : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it"
+                                                 : "nothing is read from a photon map",
+            "photon maps blur");
     has("hasDiffuse", f.hasDiffuse, "diffuse surfaces");
     because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;

@@ -5,7 +5,7 @@
 namespace vkpm {
 
 struct FeatureReason {
-    std::string name;   // as in FEATURES
+    std::string name; // as in FEATURES
     bool needed;
     std::string reason; // "the scene has no glass"
 };

@@ -22,15 +22,18 @@ void askFor(uint layers, Features& features) {
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
-    return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse && (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+    return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse &&
+           (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
 }
 
-bool tracesLight(const Features& f, const Settings& settings) { return settings.integrator == INTEGRATOR_LIGHT && f.hasCausticLayer; }
+bool tracesLight(const Features& f, const Settings& settings) {
+    return settings.integrator == INTEGRATOR_LIGHT && f.hasCausticLayer;
+}
 
 bool asksMaps(const Features& f) { return f.hasGlobalMap || f.hasCausticMap; }
 
-/// Leaves out the layers that cannot have any light and the maps that no layer needs, by what the settings ask for and by
-/// materials that the features know: for the general program, all.
+/// Leaves out the layers that cannot have any light and the maps that no layer needs, by what the settings ask for and
+/// by materials that the features know: for the general program, all.
 static void chooseLayers(Features& f, const Settings& settings) {
     const bool photon = settings.integrator == INTEGRATOR_PHOTON;
     const bool path = settings.integrator == INTEGRATOR_PATH;
@@ -38,7 +41,8 @@ static void chooseLayers(Features& f, const Settings& settings) {
     const bool light = settings.integrator == INTEGRATOR_LIGHT;
     const bool specular = f.hasMirror || f.hasGlass;
     const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && f.hasDiffuse;
-    const bool caustic = (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
+    const bool caustic =
+        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
     askFor(settings.layers, f);
     f.hasEmissionLayer &= !map && !light;
     f.hasDirectLayer &= !map && !light && f.hasDiffuse;
@@ -61,7 +65,8 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
         return features;
     }
     const auto anyMaterial = [&](auto&& is) {
-        return std::ranges::any_of(scene.primitives, [&](const Primitive& p) { return is(scene.materials[p.material]); });
+        return std::ranges::any_of(scene.primitives,
+                                   [&](const Primitive& p) { return is(scene.materials[p.material]); });
     };
     const auto anyLight = [&](auto&& is) { return std::ranges::any_of(scene.lights, is); };
     features.hasTriangles = scene.triangleCount > 0;
@@ -84,7 +89,8 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasGuide = 0; // the renderer finds out
     uint farLights = 0;
     for (const Light& light : scene.lights)
-        if (isFar(scene, light)) farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
+        if (isFar(scene, light))
+            farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
     features.hasFarLights = std::min(farLights, 2u);
     features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);

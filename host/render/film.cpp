@@ -15,7 +15,8 @@ namespace {
 
 using glm::dvec3;
 
-/// Where a column of PixelSum is among those of a film, and how many floats it has there: none if the film is without it.
+/// Where a column of PixelSum is among those of a film, and how many floats it has there: none if the film is without
+/// it.
 struct Place {
     uint inPixel;
     uint inFilm;
@@ -101,11 +102,14 @@ Pixel Total::pixel(double n) const {
 } // namespace
 
 Film::Film(Gpu& device, uvec2 pixels, const Features& features, uint wanted)
-    : gpu(device), size(pixels), count(size.x * size.y), blockPixels(std::max(wanted / size.x, 1u) * size.x), columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
+    : gpu(device), size(pixels), count(size.x * size.y), blockPixels(std::max(wanted / size.x, 1u) * size.x),
+      columns(features), status(gpu, "film status", 1), film(gpu, "film", features), join(gpu, "join", features) {
     status.upload(std::vector(1, Status{}));
 }
 
-PassRange Film::passes() const { return runs.empty() ? PassRange{} : PassRange{runs.front().passes.begin, runs.back().passes.end}; }
+PassRange Film::passes() const {
+    return runs.empty() ? PassRange{} : PassRange{runs.front().passes.begin, runs.back().passes.end};
+}
 
 std::vector<PassRange> Film::ranges() const {
     std::vector<PassRange> ranges;
@@ -116,7 +120,8 @@ std::vector<PassRange> Film::ranges() const {
 Film::Sums Film::emptySums() {
     if (!spare.empty()) return std::exchange(spare, {});
     Sums sums;
-    for (uint block = 0; block * std::uint64_t(blockPixels) < count; block++) sums.emplace_back(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * pixelsOf(block));
+    for (uint block = 0; block * std::uint64_t(blockPixels) < count; block++)
+        sums.emplace_back(gpu, "film", std::uint64_t(columns.SUM_COLUMNS) * pixelsOf(block));
     return sums;
 }
 
@@ -148,7 +153,13 @@ void Film::add(const Buffer<float>& samples, uint stride, uint first, uint sampl
     Recording recording(gpu);
     for (const Part& part : partsOf(first, sampleCount))
         recording.run(film, part.count,
-                      {{samples.address + part.inRange * sizeof(float)}, run.sums[part.block], status, stride, pixelsOf(part.block), part.inBlock, part.count,
+                      {{samples.address + part.inRange * sizeof(float)},
+                       run.sums[part.block],
+                       status,
+                       stride,
+                       pixelsOf(part.block),
+                       part.inBlock,
+                       part.count,
                        joinWeights(run.passes, {run.passes.end, run.passes.end + 1})});
     recording.submit();
 }
@@ -161,7 +172,7 @@ void Film::end() {
 
 std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) const {
     std::vector<PixelSum> sums(std::size_t(rows) * size.x, PixelSum{});
-    std::vector<float> values; // column by column
+    std::vector<float> values;        // column by column
     const std::size_t together = 256; // pixels that stay in the cache
     const std::vector<Place> places = placesOf(columns);
     for (const Part& part : partsOf(firstRow * size.x, rows * size.x)) {
@@ -181,7 +192,8 @@ std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) co
     return sums;
 }
 
-void Film::restore(std::span<const PassRange> passes, const std::function<std::vector<std::vector<PixelSum>>(uint, uint)>& sums) {
+void Film::restore(std::span<const PassRange> passes,
+                   const std::function<std::vector<std::vector<PixelSum>>(uint, uint)>& sums) {
     std::vector<Run> restored;
     for (const PassRange range : passes) restored.push_back({range, emptySums()});
     for (uint row = 0; row < size.y; row += rowsAtOnce) {
@@ -190,8 +202,10 @@ void Film::restore(std::span<const PassRange> passes, const std::function<std::v
             for (const Part& part : partsOf(row * size.x, static_cast<uint>(block[run].size()))) {
                 std::vector<float> values(part.count);
                 forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-                    for (std::size_t i = 0; i < values.size(); i++) values[i] = reinterpret_cast<const float*>(&block[run][part.inRange + i])[inPixel];
-                    restored[run].sums[part.block].upload(values, std::uint64_t(inFilm) * pixelsOf(part.block) + part.inBlock);
+                    for (std::size_t i = 0; i < values.size(); i++)
+                        values[i] = reinterpret_cast<const float*>(&block[run][part.inRange + i])[inPixel];
+                    restored[run].sums[part.block].upload(values,
+                                                          std::uint64_t(inFilm) * pixelsOf(part.block) + part.inBlock);
                 });
             }
         }
@@ -216,7 +230,8 @@ void Film::joinLast() {
         const Run& last = runs.back();
         Recording recording(gpu);
         for (uint block = 0; block < run.sums.size(); block++)
-            recording.run(join, pixelsOf(block), {run.sums[block], last.sums[block], pixelsOf(block), joinWeights(run.passes, last.passes)});
+            recording.run(join, pixelsOf(block),
+                          {run.sums[block], last.sums[block], pixelsOf(block), joinWeights(run.passes, last.passes)});
         recording.submit();
         run.passes.end = last.passes.end;
         spare = std::move(runs.back().sums);
@@ -226,7 +241,8 @@ void Film::joinLast() {
 
 FilmRows Film::rows(uint firstRow, uint count) const {
     // Noise depends on what is around.
-    const uint first = firstRow - std::min(firstRow, uint(noiseReach)), end = std::min(firstRow + count + noiseReach, size.y);
+    const uint first = firstRow - std::min(firstRow, uint(noiseReach)),
+               end = std::min(firstRow + count + noiseReach, size.y);
     const std::vector<PassRange> passes = ranges();
     const uint batch = greatestBatch(passes);
     const Batches coarse = batchesOf(passes, batch), fine = batch >= 4 ? batchesOf(passes, batch / 4) : Batches{};
@@ -239,7 +255,8 @@ FilmRows Film::rows(uint firstRow, uint count) const {
         Total total;
         for (std::size_t i = 0; i < runs.size(); i++) total.add(result.sums[i][p], passes[i], batch);
         spreads[p] = {total.coarse.variance(coarse), batch >= 4 ? total.fine.variance(fine) : dvec3(0)};
-        if (p >= result.skipped && result.pixels.size() < std::size_t(count) * size.x) result.pixels.push_back(total.pixel(passCount()));
+        if (p >= result.skipped && result.pixels.size() < std::size_t(count) * size.x)
+            result.pixels.push_back(total.pixel(passCount()));
     }
     const std::vector<vec3> noise = noiseOf(spreads, {size.x, end - first}, passes);
     for (std::size_t p = 0; p < result.pixels.size(); p++) result.pixels[p].noise = noise[result.skipped + p];

@@ -12,7 +12,8 @@
 
 namespace vkpm {
 
-/// Some rows of a film: means, and the sums of each run that they are made of, with `skipped` pixels more at their beginning.
+/// Some rows of a film: means, and the sums of each run that they are made of, with `skipped` pixels more at their
+/// beginning.
 struct FilmRows {
     std::vector<Pixel> pixels;
     std::vector<std::vector<PixelSum>> sums;
@@ -23,7 +24,8 @@ struct FilmRows {
 class Film {
 public:
     /// A film has the columns that the features say, and takes samples that have them.
-    /// Its sums are kept in blocks of whole rows, of about `blockPixels`, so that no index in one and no allocation is too large.
+    /// Its sums are kept in blocks of whole rows, of about `blockPixels`, so that no index in one and no allocation is
+    /// too large.
     Film(Gpu& gpu, uvec2 pixels, const Features& features = {}, uint blockPixels = 1u << 22);
 
     /// Makes room for a pass, the one after the last. Neither this nor end() is ever cancelled.
@@ -33,8 +35,10 @@ public:
     /// Ends the pass.
     void end();
 
-    /// Takes over runs of passes, the first of which begins where the film ends; `sums` gives those of some rows, of each run.
-    void restore(std::span<const PassRange> passes, const std::function<std::vector<std::vector<PixelSum>>(uint firstRow, uint rows)>& sums);
+    /// Takes over runs of passes, the first of which begins where the film ends; `sums` gives those of some rows, of
+    /// each run.
+    void restore(std::span<const PassRange> passes,
+                 const std::function<std::vector<std::vector<PixelSum>>(uint firstRow, uint rows)>& sums);
     void restore(PassRange passes, std::span<const PixelSum> sums);
     std::size_t runCount() const { return runs.size(); }
     PassRange run(std::size_t index) const { return runs[index].passes; }

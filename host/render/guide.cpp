@@ -13,12 +13,13 @@ namespace vkpm {
 const double eyePaths = 8192; // wanted
 const uint maxEyePaths = 1u << 14;
 const uint eyeGatherRays = 1;
-const uint pointsApart = 8, maxLightsEach = 64; // one point of so many is asked about that many lights,
-const uint maxLights = 1024;                    // so that each is asked about at 64 points
+const uint pointsApart = 8, maxLightsEach = 64;             // one point of so many is asked about that many lights,
+const uint maxLights = 1024;                                // so that each is asked about at 64 points
 const uint firstPhotons = 1u << 13, morePhotons = 1u << 15; // of the first and of other rounds
 const uint maxRounds = 3;
-const std::size_t enoughToTell = 30, enoughPlaces = 1000; // where photons were seen: to tell whether a guide is of use, and to make it
-const double minGain = 1.3; // for which photons are guided
+const std::size_t enoughToTell = 30,
+                  enoughPlaces = 1000; // where photons were seen: to tell whether a guide is of use, and to make it
+const double minGain = 1.3;            // for which photons are guided
 
 /// A picture of the same proportions with few pixels.
 static Settings smallPicture(Settings settings) {
@@ -32,12 +33,16 @@ static Settings smallPicture(Settings settings) {
 /// Cells that are just wide enough for the narrowest gathers.
 static float finestCells(const PhotonMap& map) { return 2 * std::ldexp(map.radius, -static_cast<int>(map.levels)); }
 
-CameraPilot::CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps)
-    : marks{.kernel = {gpu, "mark_visible", features}}, paths(gpu, scene, features, smallPicture(settings), maxEyePaths) {
+CameraPilot::CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
+                         const PhotonMaps& maps)
+    : marks{.kernel = {gpu, "mark_visible", features}},
+      paths(gpu, scene, features, smallPicture(settings), maxEyePaths) {
     Recording recording(gpu);
     for (VisibleCells::Map* map : {&marks.global, &marks.caustic}) {
         map->bits = Buffer<uint>(gpu, "eye marks", VISIBLE_CELL_WORDS + 1);
-        map->cellWidth = finestCells(map == &marks.global ? maps.global : maps.narrow.empty() ? maps.caustic : maps.narrow.front());
+        map->cellWidth = finestCells(map == &marks.global  ? maps.global
+                                     : maps.narrow.empty() ? maps.caustic
+                                                           : maps.narrow.front());
         recording.clear(map->bits);
     }
     recording.submit();
@@ -52,10 +57,12 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[PRIMARY_TARGET] = scene.targets.size() > 1;
     lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
-    global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
+    global = axes[PRIMARY_LIGHT] ||
+             std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
 }
 
-Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const VisibleCells& marks) {
+Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed,
+                 const GuideNeeds& needs, const VisibleCells& marks) {
     const VisibleCells::Map& map = kind == MapKind::caustic ? marks.caustic : marks.global;
     const Kernel<PhotonContributionArgs> useful(gpu, "photon_contribution");
     std::array<bool, PRIMARY_DIMENSIONS> axes = needs.axes;
@@ -84,8 +91,8 @@ Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features,
     return guide;
 }
 
-/// Roots of the mean squares of what lights bring to a point, in parts of all light there; dim points, where nobody sees noise, count
-/// less. Two answers that a light brings what its flux lets expect stand for what was not asked.
+/// Roots of the mean squares of what lights bring to a point, in parts of all light there; dim points, where nobody
+/// sees noise, count less. Two answers that a light brings what its flux lets expect stand for what was not asked.
 static std::vector<double> lightWeights(std::span<const float> values, std::span<const float> cdf, std::size_t each) {
     const std::size_t lights = cdf.size();
     std::vector<double> all(values.size() / each), squares(lights), asked(lights);
@@ -101,23 +108,29 @@ static std::vector<double> lightWeights(std::span<const float> values, std::span
         expected += flux(i % lights) * flux(i % lights);
     }
     std::vector<double> weights(lights);
-    for (std::size_t i = 0; i < lights; i++) weights[i] = std::sqrt((squares[i] + 2 * flux(i) * flux(i) * (found > 0 ? found / expected : 1)) / (asked[i] + 2));
+    for (std::size_t i = 0; i < lights; i++)
+        weights[i] =
+            std::sqrt((squares[i] + 2 * flux(i) * flux(i) * (found > 0 ? found / expected : 1)) / (asked[i] + 2));
     return weights;
 }
 
-std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const CameraPilot& places, std::span<const float> byFlux) {
+std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed,
+                                          const CameraPilot& places, std::span<const float> byFlux) {
     const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, maxLightsEach);
     const uint points = static_cast<uint>(places.paths.splitPoints().size()) / pointsApart;
     const Buffer<float> values(gpu, "light values", std::uint64_t(points) * each);
     const Kernel<LightContributionArgs> weigh(gpu, "light_contribution", features);
     Recording recording(gpu);
-    recording.run(weigh, values.size(), {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
+    recording.run(weigh, values.size(),
+                  {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
     recording.submit();
     std::vector<float> brought = values.download();
-    std::ranges::replace_if(brought, [](float value) { return !std::isfinite(value); }, 0.0f);
+    std::ranges::replace_if(
+        brought, [](float value) { return !std::isfinite(value); }, 0.0f);
     std::vector<double> weights = lightWeights(brought, byFlux, each);
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (uint i = 0; i < lights; i++) weights[i] = 0.9 * weights[i] / total + 0.1 * (double(byFlux[i]) - (i > 0 ? double(byFlux[i - 1]) : 0));
+    for (uint i = 0; i < lights; i++)
+        weights[i] = 0.9 * weights[i] / total + 0.1 * (double(byFlux[i]) - (i > 0 ? double(byFlux[i - 1]) : 0));
     return cumulative(weights);
 }
 

@@ -11,7 +11,8 @@ namespace vkpm {
 class CameraPilot {
 public:
     /// Follows some paths of a small picture with the camera of `scene`; `maps` say how wide gathers are.
-    CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, const PhotonMaps& maps);
+    CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
+                const PhotonMaps& maps);
 
     VisibleCells marks;
     CameraPaths paths;
@@ -22,22 +23,27 @@ struct GuideNeeds {
     explicit GuideNeeds(const Scene& scene);
 
     std::array<bool, PRIMARY_DIMENSIONS> axes; // numbers that matter
-    bool global;                          // photons of the global map, which go everywhere if there is one lamp and it is near
-    bool lights;                          // light samples, if there are lights to choose from
+    bool global; // photons of the global map, which go everywhere if there is one lamp and it is near
+    bool lights; // light samples, if there are lights to choose from
 };
 
 /// What was learned of the photons of a map.
 struct Guide {
-    Buffer<GuideNode> nodes;  // none: photons are started uniformly, as nearly all come to lie where the eye looks, or none does
+    Buffer<GuideNode>
+        nodes; // none: photons are started uniformly, as nearly all come to lie where the eye looks, or none does
     std::vector<vec3> places; // of photons that the eye sees
     float density = 1;        // how many more of them there are than of uniform ones
 };
 
-/// Learns in some rounds which photons to start, each with the guide of those before; stops after the first if there is little to gain.
-Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed, const GuideNeeds& needs, const VisibleCells& marks);
+/// Learns in some rounds which photons to start, each with the guide of those before; stops after the first if there is
+/// little to gain.
+Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed,
+                 const GuideNeeds& needs, const VisibleCells& marks);
 
-/// Upper ends of the parts of the unit interval by which light samples choose lights: in proportion to the root of the mean square
-/// of what each brings to the places, in parts of all light there. Lights get a tenth by flux, whose CDF is `byFlux`.
-std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed, const CameraPilot& places, std::span<const float> byFlux);
+/// Upper ends of the parts of the unit interval by which light samples choose lights: in proportion to the root of the
+/// mean square of what each brings to the places, in parts of all light there. Lights get a tenth by flux, whose CDF is
+/// `byFlux`.
+std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed,
+                                          const CameraPilot& places, std::span<const float> byFlux);
 
 } // namespace vkpm

@@ -7,10 +7,12 @@
 namespace vkpm {
 namespace {
 
-const std::size_t fewSamples = 64;     // in a box that is not cut any more
-const float narrowest = 1.0f / 4096;  // half of a box
-const double minSaving = 0.01;      // of a box's effort, for its cuts to stay
-const std::array<uint, PRIMARY_DIMENSIONS> order{PRIMARY_DIRECTION, PRIMARY_DIRECTION + 1, PRIMARY_TARGET, PRIMARY_LIGHT, PRIMARY_POSITION, PRIMARY_POSITION + 1, PRIMARY_SIDE};
+const std::size_t fewSamples = 64;   // in a box that is not cut any more
+const float narrowest = 1.0f / 4096; // half of a box
+const double minSaving = 0.01;       // of a box's effort, for its cuts to stay
+const std::array<uint, PRIMARY_DIMENSIONS> order{PRIMARY_DIRECTION, PRIMARY_DIRECTION + 1, PRIMARY_TARGET,
+                                                 PRIMARY_LIGHT,     PRIMARY_POSITION,      PRIMARY_POSITION + 1,
+                                                 PRIMARY_SIDE};
 
 // What a photon costs in units of one that is stored nowhere: there are more rays, and it is sorted and read.
 float costOf(const PrimarySample& start) { return 1 + 2 * float(start.stored); }
@@ -18,12 +20,13 @@ float costOf(const PrimarySample& start) { return 1 + 2 * float(start.stored); }
 /// What is asked of a photon again and again, with the density of uniform ones.
 struct PilotSample {
     std::array<float, PRIMARY_DIMENSIONS> numbers;
-    float all;    // their density over that with which it was started
+    float all; // their density over that with which it was started
     float cost;
     double useful; // square of what it adds, which may be a far light's 10^-40
 
     explicit PilotSample(const PrimarySample& start)
-        : all(start.inverseDensity), cost(all * costOf(start)), useful(double(all) * start.weight * start.weight * start.seen) {
+        : all(start.inverseDensity), cost(all * costOf(start)),
+          useful(double(all) * start.weight * start.weight * start.seen) {
         std::ranges::copy(start.numbers, numbers.begin());
     }
 };
@@ -70,7 +73,9 @@ struct Share {
     double cost = 0;     // and what they cost
     double left = 0;     // variance of guided photons
 
-    Share operator+(const Share& o) const { return {photons + o.photons, effort + o.effort, variance + o.variance, cost + o.cost, left + o.left}; }
+    Share operator+(const Share& o) const {
+        return {photons + o.photons, effort + o.effort, variance + o.variance, cost + o.cost, left + o.left};
+    }
 };
 
 class Builder {
@@ -89,8 +94,8 @@ public:
     GuideTree tree;
 
 private:
-    /// The mean square of what a photon of a box adds. Half of a photon of the mean of all stands for what was not met, so that no
-    /// box goes without (the estimator of Krichevsky & Trofimov 1981).
+    /// The mean square of what a photon of a box adds. Half of a photon of the mean of all stands for what was not met,
+    /// so that no box goes without (the estimator of Krichevsky & Trofimov 1981).
     double meanSquare(const Sums& sums) const {
         const double found = sums.all > 0 ? sums.useful / sums.all * sums.photons : 0;
         return (found + 0.5 * mean) / (sums.photons + 1);
@@ -129,7 +134,9 @@ private:
         const uint axis = samples.size() < fewSamples || sums.useful == 0 ? NONE : axisFor(samples, box, sums);
         if (axis == NONE) return uncut;
 
-        const auto upper = std::partition(samples.begin(), samples.end(), [&](const PilotSample& sample) { return sample.numbers[axis] < box.middle(axis); });
+        const auto upper = std::partition(samples.begin(), samples.end(), [&](const PilotSample& sample) {
+            return sample.numbers[axis] < box.middle(axis);
+        });
         const uint child = static_cast<uint>(tree.nodes.size());
         tree.nodes.resize(child + 2, {NONE, 0, 0});
         const Share lower = build({samples.begin(), upper}, box.half(axis, false), child);

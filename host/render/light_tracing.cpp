@@ -5,10 +5,11 @@
 
 namespace vkpm {
 
-LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Features& features, const Settings& settings, float flux, uint batch)
+LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Features& features,
+                           const Settings& settings, float flux, uint batch)
     : gpu(device), scene(uploaded), size(settings.size), photonFlux(flux / float(settings.causticPhotons)),
-      tracing(gpu, scene, features, MapKind::caustic, settings.causticPhotons, settings.seed, batch), sort(gpu), rays(gpu, "camera connections", 1),
-      splat(gpu, "splat", features), collectKernel(gpu, "sum_splats", features) {}
+      tracing(gpu, scene, features, MapKind::caustic, settings.causticPhotons, settings.seed, batch), sort(gpu),
+      rays(gpu, "camera connections", 1), splat(gpu, "splat", features), collectKernel(gpu, "sum_splats", features) {}
 
 PhotonLedger LightTracing::trace(uint pass) {
     PhotonLedger traced = tracing.trace(pass);
@@ -22,7 +23,8 @@ PhotonLedger LightTracing::trace(uint pass) {
     // Photons that no pixel sees come behind the last pixel.
     Recording recording(gpu);
     recording.clear(rays);
-    recording.run(splat, splatCount, {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, photonFlux});
+    recording.run(splat, splatCount,
+                  {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, photonFlux});
     sort.sort(recording, splatCount, static_cast<uint>(std::bit_width(size.x * size.y)));
     recording.submit();
     traced.rays += rays.readElement();

@@ -9,7 +9,8 @@ namespace vkpm {
 /// Pixels around one that its noise depends on, to all sides.
 const int noiseReach = 3;
 
-/// Variances of the mean of a pixel as batches of two sizes tell it, as if batches were independent; 0 with a single batch.
+/// Variances of the mean of a pixel as batches of two sizes tell it, as if batches were independent; 0 with a single
+/// batch.
 struct Spread {
     glm::dvec3 coarse{0}; // of batches of greatestBatch() passes
     glm::dvec3 fine{0};   // of a quarter of that; 0 if that is less than a pass
@@ -29,9 +30,10 @@ private:
     double weight = 0;
 };
 
-/// Standard errors of the means of pixels from their spreads, row by row. Points of a low-discrepancy sequence complement each other:
-/// the larger a batch, the better its mean, compared to independent points. How much is measured from fine to coarse batches in
-/// the 7 x 7 pixels around, and supposed to go on, if less, from coarse batches to the whole.
+/// Standard errors of the means of pixels from their spreads, row by row. Points of a low-discrepancy sequence
+/// complement each other: the larger a batch, the better its mean, compared to independent points. How much is measured
+/// from fine to coarse batches in the 7 x 7 pixels around, and supposed to go on, if less, from coarse batches to the
+/// whole.
 std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::span<const PassRange> runs);
 
 /// Degrees of freedom of these errors; 0 if there is no estimate. An interval of Student's t with as many covers the

@@ -14,7 +14,8 @@ bool joins(PassRange a, PassRange b) {
     std::uint64_t node = 1;
     while (node < child) node *= siblings;
     const std::uint64_t before = a.end - a.begin;
-    return node == child && b.begin % child == 0 && a.begin % (siblings * child) == 0 && before % child == 0 && before < siblings * child;
+    return node == child && b.begin % child == 0 && a.begin % (siblings * child) == 0 && before % child == 0 &&
+           before < siblings * child;
 }
 
 std::size_t maxRuns(uint passes) {
@@ -35,7 +36,11 @@ std::size_t maxRuns(uint passes) {
 JoinWeights joinWeights(PassRange a, PassRange b) {
     const float m = static_cast<float>(length(a)), n = static_cast<float>(length(b));
     const float batches = m / (m + n); // m n / (m + n), in batches of n passes
-    return {.perPass = m > 0 ? 1 / m : 0, .times = length(a) / length(b), .fine = n > 1 ? float(siblings) * batches : 0, .coarse = batches, .grows = length(a) == length(b)};
+    return {.perPass = m > 0 ? 1 / m : 0,
+            .times = length(a) / length(b),
+            .fine = n > 1 ? float(siblings) * batches : 0,
+            .coarse = batches,
+            .grows = length(a) == length(b)};
 }
 
 /// The greatest node of the tree that has no more passes.

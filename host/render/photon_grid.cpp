@@ -8,7 +8,9 @@
 namespace vkpm {
 
 PhotonGrid::PhotonGrid(Gpu& device, std::string label, uint bits)
-    : gpu(device), name(std::move(label)), blockBits(bits), sort(gpu), keys(gpu, "keys"), arrange(gpu, "reorder_photons"), cellStarts(gpu, "cells"), overfull(gpu, name + " overfull", std::vector<uint>{0}) {}
+    : gpu(device), name(std::move(label)), blockBits(bits), sort(gpu), keys(gpu, "keys"),
+      arrange(gpu, "reorder_photons"), cellStarts(gpu, "cells"),
+      overfull(gpu, name + " overfull", std::vector<uint>{0}) {}
 
 /// Whether the last cells written were.
 bool PhotonGrid::isCrowded() {
@@ -19,21 +21,25 @@ bool PhotonGrid::isCrowded() {
 
 /// Arranges the photons that stay, and writes the cells anew.
 void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint mask, uint pass) {
-    if (!thinning) thinning.emplace(Thinning{{gpu, "mark_kept"}, {gpu, "scan"}, {gpu, "thin_cells"}, {gpu, name + " whole", 1}});
+    if (!thinning)
+        thinning.emplace(Thinning{{gpu, "mark_kept"}, {gpu, "scan"}, {gpu, "thin_cells"}, {gpu, name + " whole", 1}});
     const Queue all{.count = count};
     thinning->whole.upload(std::span(&all, 1));
     Recording recording(gpu);
     recording.run(thinning->crowd, count, {sort.keys, cells, sort.spareValues, count, pass});
     recording.run(thinning->scan, GROUP, {sort.spareValues, thinning->whole, 1, 1});
-    recording.run(thinning->thin, count, {photons, sort.values, sort.keys, cells, sort.spareValues, arranged, sort.spareKeys, count, pass});
+    recording.run(thinning->thin, count,
+                  {photons, sort.values, sort.keys, cells, sort.spareValues, arranged, sort.spareKeys, count, pass});
     recording.submit();
     const uint left = sort.spareValues.readElement(count);
     recording.run(cellStarts, left + 1ull, {sort.spareKeys, cells, overfull, left, mask});
     recording.submit();
 }
 
-PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels, std::optional<uint> pass) {
-    // Some keys for each photon, so that few cells share one; at least a block's and, if its cells are split, some blocks.
+PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels,
+                            std::optional<uint> pass) {
+    // Some keys for each photon, so that few cells share one; at least a block's and, if its cells are split, some
+    // blocks.
     const uint least = levels == 0 ? 3 : 3 * (levels + 1) + blockBits;
     const uint bits = std::clamp(static_cast<uint>(std::bit_width(count)) + 2, least, 26u);
     const uint mask = (1u << bits) - 1;
@@ -55,7 +61,14 @@ PhotonMap PhotonGrid::build(const Buffer<Photon>& photons, uint count, float rad
     recording.run(arrange, count, {photons, sort.values, arranged, count});
     recording.submit();
     if (isCrowded() && pass) thin(photons, count, mask, *pass);
-    return {.photons = arranged, .cells = cells, .cellsPerUnit = cellsPerUnit, .cellMask = mask, .levels = levels, .radius = radius, .shrink = 1, .photonFlux = photonFlux};
+    return {.photons = arranged,
+            .cells = cells,
+            .cellsPerUnit = cellsPerUnit,
+            .cellMask = mask,
+            .levels = levels,
+            .radius = radius,
+            .shrink = 1,
+            .photonFlux = photonFlux};
 }
 
 } // namespace vkpm

@@ -15,10 +15,11 @@ public:
     PhotonGrid(Gpu& gpu, std::string name, uint blockBits = 6);
 
     /// Sorts the first `count` of `photons` into cells for gathers within `radius`.
-    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of a pass,
-    /// overfull cells are thinned (see cell_thinning.glsl); without one, all photons are there. The result has no radius field, and is
-    /// valid until the next build.
-    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0, std::optional<uint> pass = {});
+    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of
+    /// a pass, overfull cells are thinned (see cell_thinning.glsl); without one, all photons are there. The result has
+    /// no radius field, and is valid until the next build.
+    PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0,
+                    std::optional<uint> pass = {});
 
 private:
     /// What thinning needs, if any cell ever is overfull.

@@ -1,4 +1,5 @@
-/// The photon loop: emit, then trace and scatter until no photon of the batch is under way, then place those that arrived.
+/// The photon loop: emit, then trace and scatter until no photon of the batch is under way, then place those that
+/// arrived.
 #include "render/photon_tracing.h"
 #include "shared_paths.h"
 #include "shared_photons.h"
@@ -17,12 +18,14 @@ PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     return *this;
 }
 
-PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& has, MapKind mapKind, uint photonCount, uint sequence, uint batchSize)
-    : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence), batch(std::min(batchSize, count)),
-      name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"), compaction(gpu, name, batch, PHOTON_QUEUES),
-      paths(gpu, name + " paths", batch), hits(gpu, name + " hits", batch), counts(gpu, name + " counts", batch + 1ull),
-      whole(gpu, name + " batch", 1), status(gpu, name + " status", 1), emit(gpu, "emit", features), traceKernel(gpu, "trace", features),
-      scatter(gpu, "scatter", features), scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
+PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& has, MapKind mapKind,
+                             uint photonCount, uint sequence, uint batchSize)
+    : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence),
+      batch(std::min(batchSize, count)), name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"),
+      compaction(gpu, name, batch, PHOTON_QUEUES), paths(gpu, name + " paths", batch), hits(gpu, name + " hits", batch),
+      counts(gpu, name + " counts", batch + 1ull), whole(gpu, name + " batch", 1), status(gpu, name + " status", 1),
+      emit(gpu, "emit", features), traceKernel(gpu, "trace", features), scatter(gpu, "scatter", features),
+      scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
     const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
     deposits = Buffer<PhotonDeposit>(gpu, name + " deposits", std::uint64_t(perPhoton) * batch);
 }
@@ -49,7 +52,9 @@ PhotonLedger PhotonTracing::traceBatch(uint pass, uint first, uint size) {
     Recording recording(gpu);
     recording.clear(status);
     compaction.start(size);
-    recording.run(emit, size, {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts, first, size, pass, seed, uint(kind)});
+    recording.run(emit, size,
+                  {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts, first,
+                   size, pass, seed, uint(kind)});
     compaction.compact(recording);
 
     // Batches of bounces, until the device says that no photon is left.

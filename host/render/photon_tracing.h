@@ -25,15 +25,17 @@ struct PhotonLedger {
 
 enum class MapKind : uint { global = 0, caustic = 1 };
 
-/// Emits `count` photons per pass, `batch` of them at a time, and keeps where they arrive in the order of their indices, those
-/// of one photon in the order of its bounces; the size of batches changes nothing.
+/// Emits `count` photons per pass, `batch` of them at a time, and keeps where they arrive in the order of their
+/// indices, those of one photon in the order of its bounces; the size of batches changes nothing.
 class PhotonTracing {
 public:
-    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed, uint batch);
+    PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed,
+                  uint batch);
 
     /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
     PhotonLedger trace(uint pass);
-    /// Starts photons by a guide's density, or uniformly if it has no nodes; how, and how useful each was, goes to `starts`, if there are any.
+    /// Starts photons by a guide's density, or uniformly if it has no nodes; how, and how useful each was, goes to
+    /// `starts`, if there are any.
     void guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> starts = {});
     /// Where the photons of each path begin, if there is one batch.
     Ptr<uint> places() const { return counts; }

@@ -14,12 +14,13 @@ struct Sample {
     vec3 bias;     // of beauty, estimated
 };
 
-/// Sums over a run of passes, with the squared deviations between its batches; in the order of COLUMNS with everything on.
+/// Sums over a run of passes, with the squared deviations between its batches; in the order of COLUMNS with everything
+/// on.
 struct PixelSum {
     Sample sum;
     vec3 fine;
     vec3 coarse;
-    vec3 rest; // what roundings took from the layers' sums
+    vec3 rest;    // what roundings took from the layers' sums
     float square; // of the luminance of the bias
 };
 const std::size_t PIXEL_FLOATS = sizeof(PixelSum) / sizeof(float);

@@ -17,8 +17,8 @@ struct Extent {
 /// The extent of a scene's shapes.
 Extent extentOf(const Scene& scene);
 
-/// That of a scene, or what a box about 98 of 100 places of photons suggests, if that is less: a horizon or a planet far beyond
-/// the light must not decide radii.
+/// That of a scene, or what a box about 98 of 100 places of photons suggests, if that is less: a horizon or a planet
+/// far beyond the light must not decide radii.
 Extent extentOf(const Extent& scene, std::span<const vec3> places);
 
 /// The widest first radius that the program chooses by itself: a fiftieth of the scene, less if there are many

@@ -7,14 +7,15 @@
 
 namespace vkpm {
 
-// Cells of the field are half as wide as the widest radius: wide discs near a bright spot would read all of its photons.
+// Cells of the field are half as wide as the widest radius: wide discs near a bright spot would read all of its
+// photons.
 const float cellsPerRadius = 2;
 
 // Mean logarithm of radii in a cell of a map of narrow discs up to which that map answers there.
 const float maxOfNarrow = -0.5f;
 
-// Cells about such a one that have its radius: out of reach of the discs beyond, which are two wide, so that light which a disc there
-// would take from a bright spot is not in the picture twice.
+// Cells about such a one that have its radius: out of reach of the discs beyond, which are two wide, so that light
+// which a disc there would take from a bright spot is not in the picture twice.
 const int cellsAround = 3;
 
 RadiusField::RadiusField(Gpu& device) : gpu(device), pilotKernel(gpu, "measure_radius") {}
@@ -77,7 +78,8 @@ void RadiusField::measureNarrow(PhotonMap map, uint count, float perDisc) {
     std::vector<float> logarithms(NARROW_FIELD_CELLS, 1.0f);
     uint photons = 0;
     for (auto first = all.begin(); first != all.end();) {
-        const auto end = std::find_if(first, all.end(), [&](const auto& photon) { return photon.first != first->first; });
+        const auto end =
+            std::find_if(first, all.end(), [&](const auto& photon) { return photon.first != first->first; });
         double sum = 0;
         for (auto photon = first; photon != end; ++photon) sum += double(photon->second);
         const auto inCell = static_cast<uint>(end - first);
@@ -90,7 +92,8 @@ void RadiusField::measureNarrow(PhotonMap map, uint count, float perDisc) {
         for (int x = -cellsAround; x <= cellsAround; x++)
             for (int y = -cellsAround; y <= cellsAround; y++)
                 for (int z = -cellsAround; z <= cellsAround; z++) {
-                    float& value = logarithms[hash(uvec3(place[0] + x, place[1] + y, place[2] + z)) & (NARROW_FIELD_CELLS - 1)];
+                    float& value =
+                        logarithms[hash(uvec3(place[0] + x, place[1] + y, place[2] + z)) & (NARROW_FIELD_CELLS - 1)];
                     value = std::min(value, logarithm);
                 }
     }

@@ -11,9 +11,9 @@ class RadiusField {
 public:
     explicit RadiusField(Gpu& gpu);
 
-    /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius, none
-    /// narrower than that over 2^levels. One photon of `stride` is looked at. If the map is partial, the field is known where most photons
-    /// want radii below the map's, and around, farther than wider discs reach.
+    /// Measures where discs hold about `perDisc` of the map's `count` photons; none is wider than the map's radius,
+    /// none narrower than that over 2^levels. One photon of `stride` is looked at. If the map is partial, the field is
+    /// known where most photons want radii below the map's, and around, farther than wider discs reach.
     void measure(const PhotonMap& pilot, uint count, float perDisc, uint stride = 1);
     /// Makes gathers in a map use the field.
     void apply(PhotonMap& map) const;

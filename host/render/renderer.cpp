@@ -6,8 +6,8 @@
 
 namespace vkpm {
 
-// The pass that radii are measured in. A radius for each region follows the photons there, so that they must be others than
-// those of any pass of a render; one for all does not.
+// The pass that radii are measured in. A radius for each region follows the photons there, so that they must be others
+// than those of any pass of a render; one for all does not.
 const uint firstPass = 0, noPass = NONE;
 
 // Photons that say how large the scene is to its light.
@@ -16,30 +16,35 @@ const uint photonsForExtent = 8192;
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
 
-// Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the noise
-// of few photons averages out; caustics are looked at directly.
+// Photons that a first gather disc is to hold. Those of the global map are only seen through a gather ray, so that the
+// noise of few photons averages out; caustics are looked at directly.
 const float globalPhotonsPerDisc = 40;
 const float causticPhotonsPerDisc = 10;
 
-// Part of the photons of caustics that must want discs less than half as wide as a map can have for it to get another of narrower ones.
+// Part of the photons of caustics that must want discs less than half as wide as a map can have for it to get another
+// of narrower ones.
 const float partForNarrow = 0.1f;
 
-// How often its cells are split at most, and bits of keys for their blocks: the few that are overfull should share keys with no others.
+// How often its cells are split at most, and bits of keys for their blocks: the few that are overfull should share keys
+// with no others.
 const uint narrowLevels = 3, narrowBlockBits = 11;
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, BatchSizes batchSizes)
     : Renderer(device, input, set, sceneFeatures(input, set), batchSizes) {}
 
-/// Photons go where any layer has the eye look, so that the layers of a picture are the same whatever else was asked for.
+/// Photons go where any layer has the eye look, so that the layers of a picture are the same whatever else was asked
+/// for.
 static Features withAllLayers(const Scene& scene, Settings settings) {
     settings.layers = allLayers;
     return sceneFeatures(scene, settings);
 }
 
-Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features, BatchSizes batchSizes)
-    : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)), guideNeeds(input), lightCdf(input.lightCdf), scene(gpu, input, settings),
-      flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))),
-      batches(batchSizes), global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
+Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features,
+                   BatchSizes batchSizes)
+    : gpu(device), settings(set), sceneHas(features), eyeHas(withAllLayers(input, set)), extent(extentOf(input)),
+      guideNeeds(input), lightCdf(input.lightCdf), scene(gpu, input, settings),
+      flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))), batches(batchSizes),
+      global(construct(MapKind::global)), caustic(construct(MapKind::caustic)), film(gpu, settings.size, sceneHas) {
     constructCamera();
 }
 
@@ -58,9 +63,14 @@ std::optional<MapStages> Renderer::construct(MapKind kind) {
     std::optional<float> radius = isGlobal ? settings.radius : settings.causticRadius;
     if (radius) *radius = static_cast<float>(double{*radius} / extent.unit);
     gpu.compilesAhead = true;
-    MapStages stages{kind, PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, batches.photons),
-                     PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"), flux / float(photons), radius.value_or(0.0f), !radius};
-    if (radius) checkRadius(stages, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
+    MapStages stages{kind,
+                     PhotonTracing(gpu, scene, sceneHas, kind, photons, settings.seed, batches.photons),
+                     PhotonGrid(gpu, isGlobal ? "global map" : "caustic map"),
+                     flux / float(photons),
+                     radius.value_or(0.0f),
+                     !radius};
+    if (radius)
+        checkRadius(stages, isGlobal ? "--radius or /settings/radius" : "--caustic-radius or /settings/causticRadius");
     else measureRadii(stages);
     stages.measured = true;
     gpu.compilesAhead = false;
@@ -98,12 +108,13 @@ PhotonLedger Renderer::photons(MapKind kind) const {
 
 static std::vector<vec3> somePlaces(const PhotonTracing& tracing, std::uint64_t stored) {
     std::vector<vec3> places;
-    for (const Photon& photon : tracing.photons.download(std::min<std::uint64_t>(stored, photonsForExtent))) places.push_back(photon.position);
+    for (const Photon& photon : tracing.photons.download(std::min<std::uint64_t>(stored, photonsForExtent)))
+        places.push_back(photon.position);
     return places;
 }
 
-/// Whether a radius that was given makes sense. Only one that drowns in the roundings of the scene's farthest coordinates has to
-/// wait for photons to tell how far the light gets.
+/// Whether a radius that was given makes sense. Only one that drowns in the roundings of the scene's farthest
+/// coordinates has to wait for photons to tell how far the light gets.
 void Renderer::checkRadius(MapStages& stages, std::string_view name) {
     if (!drownsInRounding(extent, stages.radius)) return;
     const std::uint64_t stored = stages.tracing.trace(firstPass).stored;
@@ -123,7 +134,8 @@ void Renderer::measureRadii(MapStages& stages) {
     const uint levels = maxLevels(lit, stages.radius);
     const PhotonMap pilot = stages.grid.build(stages.tracing.photons, stored, stages.radius, stages.flux, levels);
     // What a guide adds to caustics goes half into less noise, half into less blur.
-    const float perDisc = oneRadius ? globalPhotonsPerDisc : causticPhotonsPerDisc * std::sqrt(stages.guide ? stages.guide->density : 1.0f);
+    const float perDisc = oneRadius ? globalPhotonsPerDisc
+                                    : causticPhotonsPerDisc * std::sqrt(stages.guide ? stages.guide->density : 1.0f);
     stages.field->measure(pilot, stored, perDisc, oneRadius ? 8 : 1); // a median needs no more
     if (oneRadius) {
         stages.radius = stages.medianRadius();
@@ -137,7 +149,8 @@ void Renderer::measureRadii(MapStages& stages) {
     const auto finerLevels = [&] { return std::min(maxLevels(lit, narrowest), narrowLevels); };
     uint finer = finerLevels();
     for (; overfull > partForNarrow && finer > 0; finer = finerLevels()) {
-        NarrowMap& next = stages.narrow.emplace_back(NarrowMap{PhotonGrid(gpu, "narrow caustic map", narrowBlockBits), RadiusField(gpu), narrowest});
+        NarrowMap& next = stages.narrow.emplace_back(
+            NarrowMap{PhotonGrid(gpu, "narrow caustic map", narrowBlockBits), RadiusField(gpu), narrowest});
         PhotonMap map = next.grid.build(stages.tracing.photons, stored, narrowest, stages.flux, finer);
         map.partial = 1;
         next.field.measure(map, stored, perDisc);
@@ -148,7 +161,8 @@ void Renderer::measureRadii(MapStages& stages) {
 }
 
 float MapStages::medianRadius() const {
-    const auto typical = std::ranges::find_if(narrow.rbegin(), narrow.rend(), [](const NarrowMap& map) { return map.field.known > 0.5f; });
+    const auto typical = std::ranges::find_if(narrow.rbegin(), narrow.rend(),
+                                              [](const NarrowMap& map) { return map.field.known > 0.5f; });
     if (typical != narrow.rend()) return typical->radius * std::exp2(typical->field.median);
     return field ? radius * std::exp2(field->median) : radius;
 }
@@ -196,7 +210,9 @@ void Renderer::guidePhotons() {
         measure();
         const CameraPilot places(gpu, scene, eyeHas, settings, {mapOf(global), mapOf(caustic), narrowMapsOf(caustic)});
         for (std::optional<MapStages>* stages : maps)
-            if (learns(stages)) (*stages)->follow(learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
+            if (learns(stages))
+                (*stages)->follow(
+                    learnGuide(gpu, scene, sceneHas, (*stages)->kind, settings.seed, guideNeeds, places.marks));
         if (weighs) scene.chooseLights(learnLightDistribution(gpu, scene, eyeHas, settings.seed, places, lightCdf));
         lightDistributionLearned = true;
     }
@@ -233,13 +249,15 @@ PhotonLedger Renderer::buildMap(std::optional<MapStages>& stages, uint pass) {
     const float radius = settings.nearest ? stages->radius : stages->radius * factor;
     // Points are shown as they are, and the k nearest are those of all photons.
     const std::optional<uint> thinned = settings.showPoints || settings.nearest ? std::nullopt : std::optional(pass);
-    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux, stages->levels(), thinned);
+    stages->map = stages->grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), radius, stages->flux,
+                                     stages->levels(), thinned);
     stages->map.shrink = factor;
     stages->map.kernel = settings.kernel;
     stages->map.nearest = settings.nearest;
     if (stages->field) stages->field->apply(stages->map);
     for (NarrowMap& narrow : stages->narrow) {
-        narrow.map = narrow.grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored), narrow.radius * factor, stages->flux, narrow.levels(), thinned);
+        narrow.map = narrow.grid.build(stages->tracing.photons, static_cast<uint>(ledger.stored),
+                                       narrow.radius * factor, stages->flux, narrow.levels(), thinned);
         narrow.map.kernel = settings.kernel;
         narrow.map.shrink = factor;
         narrow.field.apply(narrow.map);
@@ -253,7 +271,9 @@ void Renderer::renderPass(uint pass) {
     const PhotonLedger ofGlobal = buildMap(global, pass), ofCaustic = buildMap(caustic, pass);
     const PhotonLedger ofLight = light ? light->trace(pass) : PhotonLedger{};
     const float nearDistance = global ? nearRadii * global->medianRadius() * radiusFactor(pass, settings.alpha) : 0;
-    PhotonMaps maps{.global = global ? global->map : PhotonMap{}, .caustic = caustic ? caustic->map : PhotonMap{}, .nearDistance = nearDistance};
+    PhotonMaps maps{.global = global ? global->map : PhotonMap{},
+                    .caustic = caustic ? caustic->map : PhotonMap{},
+                    .nearDistance = nearDistance};
     if (caustic)
         for (const NarrowMap& narrow : caustic->narrow | std::views::reverse) maps.narrow.push_back(narrow.map);
 

@@ -15,7 +15,8 @@
 
 namespace vkpm {
 
-/// The photons of a map once more, in cells for discs narrower than its own. It answers where most photons want such discs.
+/// The photons of a map once more, in cells for discs narrower than its own. It answers where most photons want such
+/// discs.
 struct NarrowMap {
     PhotonGrid grid;
     RadiusField field;
@@ -68,10 +69,12 @@ public:
     /// With other features than sceneFeatures(scene, settings), for tests.
     Renderer(Gpu& gpu, const Scene& scene, const Settings& settings, const Features& features, BatchSizes batches = {});
 
-    /// Renders the pass of an index, the one after the film's last. After Cancelled it goes on where that pass was left.
+    /// Renders the pass of an index, the one after the film's last. After Cancelled it goes on where that pass was
+    /// left.
     void renderPass(uint pass);
 
-    /// Begins anew with another view and size; photon maps do not depend on these and stay; a pass under way is forgotten.
+    /// Begins anew with another view and size; photon maps do not depend on these and stay; a pass under way is
+    /// forgotten.
     void look(const View& view, uvec2 size);
 
     RayCounts rays() const { return cameraRays; }
@@ -79,7 +82,8 @@ public:
     Features features() const;
     const std::optional<MapStages>& globalMap() const { return global; }
     const std::optional<MapStages>& causticMap() const { return caustic; }
-    /// What became of the photons of either kind in all passes; those of the caustic kind are for its map or for light tracing.
+    /// What became of the photons of either kind in all passes; those of the caustic kind are for its map or for light
+    /// tracing.
     PhotonLedger photons(MapKind kind) const;
 
 private:
@@ -96,8 +100,8 @@ private:
     Features eyeHas; // were all layers asked for
     Extent extent;
     GuideNeeds guideNeeds;
-    std::vector<float> lightCdf; // by flux
-    bool lightDistributionLearned = false;        // whether it is known which lights count, see learnLightDistribution
+    std::vector<float> lightCdf;           // by flux
+    bool lightDistributionLearned = false; // whether it is known which lights count, see learnLightDistribution
     UploadedScene scene;
     float flux; // luminance of the lights' flux, W
     BatchSizes batches;
@@ -111,6 +115,5 @@ private:
 public:
     Film film;
 };
-
 
 } // namespace vkpm

@@ -9,7 +9,8 @@ namespace vkpm {
 const uint digits = 1u << SORT_BITS;
 
 Sort::Sort(Gpu& device)
-    : gpu(device), queue(gpu, "sort queue", 1), countDigits(gpu, "sort_count"), scan(gpu, "scan"), scatter(gpu, "sort_scatter") {}
+    : gpu(device), queue(gpu, "sort queue", 1), countDigits(gpu, "sort_count"), scan(gpu, "scan"),
+      scatter(gpu, "sort_scatter") {}
 
 void Sort::reserve(std::uint64_t count) {
     if (keys.size() >= count) return;

@@ -18,9 +18,13 @@ static std::vector<Material> withFresnel(std::vector<Material> materials, bool s
 
 UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings)
     : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
-      primitives(uploaded(gpu, "scene primitives", scene.primitives)), normals(uploaded(gpu, "scene normals", scene.normals)),
-      materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))), lights(uploaded(gpu, "scene lights", scene.lights)),
-      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)), directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)), targets(uploaded(gpu, "scene targets", scene.targets)), missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
+      primitives(uploaded(gpu, "scene primitives", scene.primitives)),
+      normals(uploaded(gpu, "scene normals", scene.normals)),
+      materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))),
+      lights(uploaded(gpu, "scene lights", scene.lights)), lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)),
+      directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
+      targets(uploaded(gpu, "scene targets", scene.targets)),
+      missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,

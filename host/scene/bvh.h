@@ -14,8 +14,9 @@ struct Bvh {
 };
 
 /// The hierarchy of `primitives`, of which the first `triangleCount` are triangles and the others spheres (centre a,
-/// radius b.x), at least one and at most LEAF_FIRST: binned surface area heuristic (Wald 2007), each primitive in one leaf. The
-/// same input gives the same hierarchy. Throws InputError if boxes overflow, std::runtime_error if Embree fails.
+/// radius b.x), at least one and at most LEAF_FIRST: binned surface area heuristic (Wald 2007), each primitive in one
+/// leaf. The same input gives the same hierarchy. Throws InputError if boxes overflow, std::runtime_error if Embree
+/// fails.
 Bvh buildBvh(std::span<const Primitive> primitives, uint triangleCount);
 
 } // namespace vkpm

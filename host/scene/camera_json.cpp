@@ -12,7 +12,8 @@ std::string list(const vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v
 std::string placeList(const vec3& v, const Coordinates& coordinates) {
     const glm::dvec3 world = coordinates.world(v);
     const auto number = [&](int axis) {
-        return coordinates.origin[axis] == 0 ? fmt::format("{}", static_cast<float>(world[axis])) : fmt::format("{}", world[axis]);
+        return coordinates.origin[axis] == 0 ? fmt::format("{}", static_cast<float>(world[axis]))
+                                             : fmt::format("{}", world[axis]);
     };
     return fmt::format("[{}, {}, {}]", number(0), number(1), number(2));
 }
@@ -20,7 +21,8 @@ std::string placeList(const vec3& v, const Coordinates& coordinates) {
 /// The angle in degrees that is read as these radians.
 float degreesOf(float radians) {
     const float near = glm::degrees(radians);
-    for (float below = near, above = near; above - below < 1e-4f * near; below = std::nextafter(below, 0.0f), above = std::nextafter(above, INFINITY))
+    for (float below = near, above = near; above - below < 1e-4f * near;
+         below = std::nextafter(below, 0.0f), above = std::nextafter(above, INFINITY))
         for (const float degrees : {below, above})
             if (glm::radians(degrees) == radians) return degrees;
     return near;
@@ -56,7 +58,9 @@ View inWorldDigits(View view) {
 }
 
 std::string cameraJson(const View& view) {
-    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}}})", placeList(view.origin, view.coordinates), placeList(view.target, view.coordinates), list(view.up), degreesOf(view.fieldOfView));
+    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}}})",
+                       placeList(view.origin, view.coordinates), placeList(view.target, view.coordinates),
+                       list(view.up), degreesOf(view.fieldOfView));
 }
 
 std::string withCamera(const std::string& text, const View& view) {

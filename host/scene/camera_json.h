@@ -5,8 +5,8 @@
 
 namespace vkpm {
 
-/// The view with places that a scene file can say: far from the world's origin, double precision has fewer digits than a float
-/// that is relative to the scene's own.
+/// The view with places that a scene file can say: far from the world's origin, double precision has fewer digits than
+/// a float that is relative to the scene's own.
 View inWorldDigits(View view);
 
 /// The value of a scene's "camera"; read again, it is the same view, bit for bit, if it is in world digits.

@@ -11,7 +11,8 @@ static double median(std::vector<double> xs) {
     return *middle;
 }
 
-/// By the distance over which places are spread, and the farthest of them; what is beyond these limits is refused anyway.
+/// By the distance over which places are spread, and the farthest of them; what is beyond these limits is refused
+/// anyway.
 static double chooseUnit(double spread, double reach) {
     const double size = spread > 0 ? std::max(spread, std::ldexp(reach, -40)) : reach;
     return size == 0 || (size >= 0x1p-16 && size < 0x1p16) ? 1 : std::ldexp(1, std::clamp(std::ilogb(size), -31, 41));

@@ -59,11 +59,14 @@ Seams seamsOf(const std::vector<Edge>& edges) {
 /// Squared distance of a point from a triangle (Ericson 2005, sec. 5.1.5, by regions of the plane).
 double distance2(const Primitive& p, dvec3 point) {
     const dvec3 a{p.a}, u = dvec3{p.b} - a, v = dvec3{p.c} - a, d = point - a;
-    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), du = glm::dot(d, u), dv = glm::dot(d, v);
-    const double determinant = uu * vv - uv * uv, s = (vv * du - uv * dv) / determinant, t = (uu * dv - uv * du) / determinant;
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), du = glm::dot(d, u),
+                 dv = glm::dot(d, v);
+    const double determinant = uu * vv - uv * uv, s = (vv * du - uv * dv) / determinant,
+                 t = (uu * dv - uv * du) / determinant;
     if (s >= 0 && t >= 0 && s + t <= 1) return glm::dot(d - s * u - t * v, d - s * u - t * v);
     const auto fromSegment = [&](dvec3 start, dvec3 along) {
-        const dvec3 e = point - start, rest = e - std::clamp(glm::dot(e, along) / glm::dot(along, along), 0.0, 1.0) * along;
+        const dvec3 e = point - start,
+                    rest = e - std::clamp(glm::dot(e, along) / glm::dot(along, along), 0.0, 1.0) * along;
         return glm::dot(rest, rest);
     };
     return std::min({fromSegment(a, u), fromSegment(a, v), fromSegment(a + u, v - u)});
@@ -78,7 +81,9 @@ bool touchesOthers(const Scene& scene, const GlassShape& shape, dvec3 point, dou
         const Bounds box = boxOf(p, isSphere);
         const dvec3 outside = glm::max(glm::max(dvec3{box.low} - point, point - dvec3{box.high}), dvec3{0});
         if (glm::dot(outside, outside) > reach * reach) continue;
-        if (isSphere ? std::abs(glm::distance(dvec3{p.a}, point) - double{p.b.x}) <= reach : distance2(p, point) <= reach * reach) return true;
+        if (isSphere ? std::abs(glm::distance(dvec3{p.a}, point) - double{p.b.x}) <= reach
+                     : distance2(p, point) <= reach * reach)
+            return true;
     }
     return false;
 }
@@ -122,23 +127,28 @@ bool isWithinGlass(const Scene& scene, const GlassShape& shape, const Bounds& bo
 }
 
 bool areNear(const Bounds& a, const Bounds& b, double apart) {
-    return glm::all(glm::lessThanEqual(dvec3{a.low} - apart, dvec3{b.high})) && glm::all(glm::lessThanEqual(dvec3{b.low} - apart, dvec3{a.high}));
+    return glm::all(glm::lessThanEqual(dvec3{a.low} - apart, dvec3{b.high})) &&
+           glm::all(glm::lessThanEqual(dvec3{b.low} - apart, dvec3{a.high}));
 }
 
 /// The triangles of a shape by a box.
 std::vector<Primitive> trianglesBy(const Scene& scene, const GlassShape& shape, const Bounds& box, double apart) {
     std::vector<Primitive> found;
-    std::copy_if(scene.primitives.begin() + std::ptrdiff_t(shape.first), scene.primitives.begin() + std::ptrdiff_t(shape.end), std::back_inserter(found),
+    std::copy_if(scene.primitives.begin() + std::ptrdiff_t(shape.first),
+                 scene.primitives.begin() + std::ptrdiff_t(shape.end), std::back_inserter(found),
                  [&](const Primitive& p) { return areNear(boxOf(p, false), box, apart); });
     return found;
 }
 
-dvec3 normalOf(const Primitive& p) { return glm::normalize(glm::cross(dvec3{p.b} - dvec3{p.a}, dvec3{p.c} - dvec3{p.a})); }
+dvec3 normalOf(const Primitive& p) {
+    return glm::normalize(glm::cross(dvec3{p.b} - dvec3{p.a}, dvec3{p.c} - dvec3{p.a}));
+}
 
 /// Whether the middle of a triangle lies on another.
 bool liesOn(const Primitive& p, const Primitive& other, double apart) {
     const dvec3 middle = (dvec3{p.a} + dvec3{p.b} + dvec3{p.c}) / 3.0;
-    return areNear({vec3{middle}, vec3{middle}}, boxOf(other, false), apart) && distance2(other, middle) <= apart * apart && std::abs(glm::dot(normalOf(p), normalOf(other))) > 0.9999;
+    return areNear({vec3{middle}, vec3{middle}}, boxOf(other, false), apart) &&
+           distance2(other, middle) <= apart * apart && std::abs(glm::dot(normalOf(p), normalOf(other))) > 0.9999;
 }
 
 const std::size_t maxPairs = 10'000'000; // of triangles to compare
@@ -152,7 +162,8 @@ Bounds boxOf(const Scene& scene, const GlassShape& shape) {
     Bounds box;
     for (std::size_t i = shape.first; i < shape.end; i++) {
         const Primitive& p = scene.primitives[i];
-        box = {glm::min(box.low, glm::min(p.a, glm::min(p.b, p.c))), glm::max(box.high, glm::max(p.a, glm::max(p.b, p.c)))};
+        box = {glm::min(box.low, glm::min(p.a, glm::min(p.b, p.c))),
+               glm::max(box.high, glm::max(p.a, glm::max(p.b, p.c)))};
     }
     return box;
 }
@@ -163,21 +174,29 @@ bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other) {
     if (!areNear(a, b, apart)) return false;
     const std::vector<Primitive> ours = trianglesBy(scene, one, b, apart), theirs = trianglesBy(scene, other, a, apart);
     if (ours.size() * theirs.size() > maxPairs) return false;
-    return std::ranges::any_of(ours, [&](const Primitive& p) { return std::ranges::any_of(theirs, [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); }); });
+    return std::ranges::any_of(ours, [&](const Primitive& p) {
+        return std::ranges::any_of(theirs,
+                                   [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); });
+    });
 }
 
 bool glassMayTouchOpaque(const Scene& scene) {
-    const double apart = std::ldexp(glm::length(dvec3{scene.near.center}) + scene.near.radius, -14); // of rays from as far as 100 times that
+    const double apart = std::ldexp(glm::length(dvec3{scene.near.center}) + scene.near.radius,
+                                    -14);     // of rays from as far as 100 times that
     std::array<std::vector<Bounds>, 2> boxes; // of opaque triangles, of glass
     std::array<Bounds, 2> about;
     for (std::size_t i = 0; i < scene.triangleCount; i++) {
         const bool isGlass = scene.materials[scene.primitives[i].material].kind == MATERIAL_GLASS;
         boxes[isGlass].push_back(boxOf(scene.primitives[i], false));
-        about[isGlass] = {glm::min(about[isGlass].low, boxes[isGlass].back().low), glm::max(about[isGlass].high, boxes[isGlass].back().high)};
+        about[isGlass] = {glm::min(about[isGlass].low, boxes[isGlass].back().low),
+                          glm::max(about[isGlass].high, boxes[isGlass].back().high)};
     }
-    for (int kind : {0, 1}) std::erase_if(boxes[kind], [&](const Bounds& box) { return !areNear(box, about[1 - kind], apart); });
+    for (int kind : {0, 1})
+        std::erase_if(boxes[kind], [&](const Bounds& box) { return !areNear(box, about[1 - kind], apart); });
     if (boxes[0].size() * boxes[1].size() > maxPairs) return true;
-    return std::ranges::any_of(boxes[0], [&](const Bounds& a) { return std::ranges::any_of(boxes[1], [&](const Bounds& b) { return areNear(a, b, apart); }); });
+    return std::ranges::any_of(boxes[0], [&](const Bounds& a) {
+        return std::ranges::any_of(boxes[1], [&](const Bounds& b) { return areNear(a, b, apart); });
+    });
 }
 
 std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& shape) {
@@ -190,19 +209,26 @@ std::vector<std::string> wrongWithGlass(const Scene& scene, const GlassShape& sh
     for (std::size_t i = 0; i < seams.open.size(); i += step) {
         const dvec3 middle = 0.5 * (dvec3{seams.open[i].ends[0]} + dvec3{seams.open[i].ends[1]});
         if (touchesOthers(scene, shape, middle, nextTo * m.diagonal)) continue;
-        wrong.push_back(fmt::format("the glass is open, {} edges belong to one triangle alone, and light that enters does not leave again; close it, or give a sheet a thickness",
+        wrong.push_back(fmt::format("the glass is open, {} edges belong to one triangle alone, and light that enters "
+                                    "does not leave again; close it, or give a sheet a thickness",
                                     seams.open.size()));
         break;
     }
     if (seams.turned > 0)
-        wrong.push_back(fmt::format("triangles of the glass face different ways at {} edges, and light there enters what it should leave; let all face outward", seams.turned));
+        wrong.push_back(fmt::format("triangles of the glass face different ways at {} edges, and light there enters "
+                                    "what it should leave; let all face outward",
+                                    seams.turned));
     if (!seams.open.empty() || seams.turned > 0) return wrong;
 
-    if (m.volume < 0 && !isWithinGlass(scene, shape, shape.box)) wrong.push_back("the glass is inside out: its triangles face inward; turn them, or give \"exteriorIor\" what lies within");
+    if (m.volume < 0 && !isWithinGlass(scene, shape, shape.box))
+        wrong.push_back(
+            "the glass is inside out: its triangles face inward; turn them, or give \"exteriorIor\" what lies within");
     const double thickness = 2 * std::abs(m.volume) / m.area, least = std::ldexp(m.reach, -14);
     if (thickness < least)
-        wrong.push_back(fmt::format("the glass is {:.2g} thick, and light misses one of its faces: 32-bit floats as far as this from the middle of the scene take at least {:.2g}; "
-                                    "make it thicker, or the scene smaller", thickness * scene.coordinates.unit, least * scene.coordinates.unit));
+        wrong.push_back(fmt::format("the glass is {:.2g} thick, and light misses one of its faces: 32-bit floats as "
+                                    "far as this from the middle of the scene take at least {:.2g}; "
+                                    "make it thicker, or the scene smaller",
+                                    thickness * scene.coordinates.unit, least * scene.coordinates.unit));
     return wrong;
 }
 

@@ -71,11 +71,14 @@ std::vector<std::string> settingsDifferences(const std::string& here, const std:
     const json b = json::parse(there, nullptr, false);
     if (!a.is_object() || !b.is_object()) return {"settings: not readable"};
     std::vector<std::string> lines;
-    const auto text = [](const json& object, const std::string& key) { return object.contains(key) ? object[key].dump() : "none given"; };
+    const auto text = [](const json& object, const std::string& key) {
+        return object.contains(key) ? object[key].dump() : "none given";
+    };
     json all = a;
     all.update(b);
     for (const auto& [key, value] : all.items())
-        if (text(a, key) != text(b, key)) lines.push_back(fmt::format("{}: {} here, {} there", key, text(a, key), text(b, key)));
+        if (text(a, key) != text(b, key))
+            lines.push_back(fmt::format("{}: {} here, {} there", key, text(a, key), text(b, key)));
     return lines;
 }
 
@@ -91,15 +94,18 @@ std::map<std::string, std::string> identityOf(const Scene& scene, const Settings
     return identity;
 }
 
-std::vector<std::string> differences(const std::map<std::string, std::string>& here, const std::map<std::string, std::string>& there) {
+std::vector<std::string> differences(const std::map<std::string, std::string>& here,
+                                     const std::map<std::string, std::string>& there) {
     const auto value = [](const auto& map, const char* key) { return map.contains(key) ? map.at(key) : std::string(); };
     if (value(here, "settingsHash") == value(there, "settingsHash")) return {};
     std::vector<std::string> lines;
     if (value(here, "version") != value(there, "version"))
         lines.push_back(fmt::format("version: {} here, {} there", value(here, "version"), value(there, "version")));
     if (value(here, "sceneHash") != value(there, "sceneHash"))
-        for (const std::string& line : sceneDifferences(value(here, "scene"), value(there, "scene"))) lines.push_back(line);
-    for (const std::string& line : settingsDifferences(value(here, "settings"), value(there, "settings"))) lines.push_back(line);
+        for (const std::string& line : sceneDifferences(value(here, "scene"), value(there, "scene")))
+            lines.push_back(line);
+    for (const std::string& line : settingsDifferences(value(here, "settings"), value(there, "settings")))
+        lines.push_back(line);
     if (lines.empty()) lines.push_back("settingsHash: damaged");
     return lines;
 }

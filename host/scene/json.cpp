@@ -49,7 +49,8 @@ public:
         const std::string before = text.substr(0, position == 0 ? 0 : position - 1);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
-        refuseFile(file, fmt::format(":{}:{}", line, before.size() - lineStart + 1), message, "the file must be JSON (RFC 8259)");
+        refuseFile(file, fmt::format(":{}:{}", line, before.size() - lineStart + 1), message,
+                   "the file must be JSON (RFC 8259)");
     }
 
 private:

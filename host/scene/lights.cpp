@@ -38,7 +38,8 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
 
 std::vector<float> cumulative(std::span<const double> weights) {
     const double steps = 0x1p24, total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const auto positive = static_cast<std::size_t>(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
+    const auto positive =
+        static_cast<std::size_t>(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
     // A step each beforehand, and the rest in proportion.
     const double each = positive <= std::size_t(1) << 23 ? 1 : 0, rest = steps - each * double(positive);
     std::vector<float> cdf;
@@ -66,17 +67,22 @@ template <class Counts> static Target sphereOf(const Scene& scene, double wide, 
 }
 
 Target sphereOfLit(const Scene& scene) {
-    return sphereOf(scene, 1.000002, [&](const Primitive& p) { return p.light == NONE || scene.materials[p.material].color != vec3{0}; });
+    return sphereOf(scene, 1.000002, [&](const Primitive& p) {
+        return p.light == NONE || scene.materials[p.material].color != vec3{0};
+    });
 }
 
 Target sphereOfNear(const Scene& scene) {
-    return sphereOf(scene, 1.001, [&](const Primitive& p) { return p.light == NONE || !isFar(scene, scene.lights[p.light]); });
+    return sphereOf(scene, 1.001,
+                    [&](const Primitive& p) { return p.light == NONE || !isFar(scene, scene.lights[p.light]); });
 }
 
 bool isFar(const Scene& scene, const Light& light) {
     const dvec3 a = dvec3{light.a} - dvec3{scene.lit.center}, u{light.u}, v{light.v};
-    const double reach = light.kind == LIGHT_SPHERE ? glm::length(a) + u.x
-                                                    : std::max({glm::length(a), glm::length(a + u), glm::length(a + v), glm::length(a + u + v)});
+    const double reach =
+        light.kind == LIGHT_SPHERE
+            ? glm::length(a) + u.x
+            : std::max({glm::length(a), glm::length(a + u), glm::length(a + v), glm::length(a + u + v)});
     return reach > 1.9999 * double{scene.lit.radius};
 }
 

@@ -12,13 +12,14 @@ double luminance(glm::dvec3 color);
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 
-/// The cumulative distribution of weights, none negative and some positive, in whole steps of the random numbers that lights are chosen by
-/// (2^-24), so that differences are exactly the probabilities. Where the weight is positive the probability is, unless there
-/// are more than 2^23 of these.
+/// The cumulative distribution of weights, none negative and some positive, in whole steps of the random numbers that
+/// lights are chosen by (2^-24), so that differences are exactly the probabilities. Where the weight is positive the
+/// probability is, unless there are more than 2^23 of these.
 std::vector<float> cumulative(std::span<const double> weights);
 
-/// Fills `flux`, `lightCdf` and the lights' `share`. The probability of a light is the difference of its two entries of the CDF, nearly in
-/// proportion to its flux. Throws InputError, naming `file`, if no light emits or the flux is beyond the range of float.
+/// Fills `flux`, `lightCdf` and the lights' `share`. The probability of a light is the difference of its two entries of
+/// the CDF, nearly in proportion to its flux. Throws InputError, naming `file`, if no light emits or the flux is beyond
+/// the range of float.
 void chooseLights(Scene& scene, const std::filesystem::path& file);
 
 /// The sphere about the box of all that light falls upon: of all primitives but lights that reflect nothing.
@@ -27,7 +28,8 @@ Target sphereOfLit(const Scene& scene);
 /// The sphere about all but far lights, a little wide, so that photons may start on it.
 Target sphereOfNear(const Scene& scene);
 
-/// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in projection_map.glsl.
+/// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in
+/// projection_map.glsl.
 bool isFar(const Scene& scene, const Light& light);
 
 } // namespace vkpm

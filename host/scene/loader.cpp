@@ -68,7 +68,8 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto seed = reader.find("seed")) settings.seed = seed->integer(0, std::numeric_limits<uint>::max());
     reader.finish();
 }
-static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSITY_KERNEL_GAUSS == 2 && DENSITY_KERNEL_EPANECHNIKOV == 3);
+static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSITY_KERNEL_GAUSS == 2 &&
+              DENSITY_KERNEL_EPANECHNIKOV == 3);
 
 /// Index inside over index outside.
 float readIor(Reader& glass) {
@@ -111,8 +112,10 @@ void checkExtent(const Scene& scene, const std::filesystem::path& file) {
     const vec3 corner = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
     const double reach = scene.coordinates.unit * double{std::max({corner.x, corner.y, corner.z})};
     if (!(extent >= 1e-9 && reach <= 1e12))
-        refuseFile(file, ": /shapes", fmt::format("the shapes extend over {:.3g} and reach as far as {:.3g} from their middle", extent, reach),
-                   "allowed are at least 1e-9 and at most 1e12");
+        refuseFile(
+            file, ": /shapes",
+            fmt::format("the shapes extend over {:.3g} and reach as far as {:.3g} from their middle", extent, reach),
+            "allowed are at least 1e-9 and at most 1e12");
 }
 
 void readScene(Reader root, Scene& scene) {
@@ -146,7 +149,8 @@ void readScene(Reader root, Scene& scene) {
 
 Scene loadScene(const std::filesystem::path& file) {
     const std::string problem = fileProblem(file);
-    if (!problem.empty()) throw InputError(fmt::format("{}: {}; give a scene file", printable(file.string(), 4096), problem));
+    if (!problem.empty())
+        throw InputError(fmt::format("{}: {}; give a scene file", printable(file.string(), 4096), problem));
     Scene scene;
     scene.name = file.stem().string();
     scene.files.push_back(file);

@@ -22,8 +22,8 @@ struct Mesh {
     std::vector<std::string> warnings;
 };
 
-/// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file missingRequirements, weighted by angle
-/// (Thuermer & Wuethrich 1998). Throws InputError with file:line for what is not sound.
+/// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file missingRequirements,
+/// weighted by angle (Thuermer & Wuethrich 1998). Throws InputError with file:line for what is not sound.
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness);
 
 } // namespace vkpm

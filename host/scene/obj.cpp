@@ -90,7 +90,9 @@ private:
         const std::string_view keyword = takeWord(rest);
         if (keyword == "v") {
             obj.vertices.push_back(readNumbers(rest));
-            if (!isFinite(obj.vertices.back())) unsound[obj.vertices.size() - 1] = {line, std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())).substr(0, 60))};
+            if (!isFinite(obj.vertices.back()))
+                unsound[obj.vertices.size() - 1] = {
+                    line, std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())).substr(0, 60))};
         } else if (keyword == "vn") {
             obj.normals.push_back(vec3{readNumbers(rest)});
             obj.normalLines.push_back(line);
@@ -115,10 +117,17 @@ private:
             double value = 0;
             const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
             const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1; // underflows to 0
-            const bool huge = error == std::errc::result_out_of_range || std::abs(value) > double{std::numeric_limits<float>::max()};
-            const bool isNumber = (error == std::errc{} || error == std::errc::result_out_of_range) && end == word.data() + word.size();
-            if (!isNumber && !isNotANumber(word)) fail(line, fmt::format("found \"{}\" as a coordinate", printable(found, 60)), "allowed are three finite numbers");
-            numbers[i] = !isNumber ? std::numeric_limits<double>::quiet_NaN() : tiny ? 0 : huge ? std::numeric_limits<double>::infinity() : value;
+            const bool huge =
+                error == std::errc::result_out_of_range || std::abs(value) > double{std::numeric_limits<float>::max()};
+            const bool isNumber =
+                (error == std::errc{} || error == std::errc::result_out_of_range) && end == word.data() + word.size();
+            if (!isNumber && !isNotANumber(word))
+                fail(line, fmt::format("found \"{}\" as a coordinate", printable(found, 60)),
+                     "allowed are three finite numbers");
+            numbers[i] = !isNumber ? std::numeric_limits<double>::quiet_NaN()
+                         : tiny    ? 0
+                         : huge    ? std::numeric_limits<double>::infinity()
+                                   : value;
         }
         return numbers;
     }
@@ -130,7 +139,8 @@ private:
             const uint vertex = readIndex(takeIndex(word), whole, obj.vertices.size());
             takeIndex(word); // of texture coordinates, which are not used
             const std::string_view normal = takeIndex(word);
-            corners.push_back({vertex, normal.empty() || normal == "0" ? NONE : readIndex(normal, whole, obj.normals.size())});
+            corners.push_back(
+                {vertex, normal.empty() || normal == "0" ? NONE : readIndex(normal, whole, obj.normals.size())});
         }
         const std::size_t count = corners.size() - first;
         if (count < 3) {
@@ -142,7 +152,8 @@ private:
             fail(line, fmt::format("a face of {} corners", count),
                  fmt::format("allowed are {}; cut it into several", maxCorners));
         faces.push_back({corners.size(), line});
-        if (std::exchange(materialIsNew, false) && std::ranges::find(obj.materials, material) == obj.materials.end()) obj.materials.push_back(material);
+        if (std::exchange(materialIsNew, false) && std::ranges::find(obj.materials, material) == obj.materials.end())
+            obj.materials.push_back(material);
     }
 
     uint readIndex(std::string_view digits, std::string_view corner, std::size_t count) const {
@@ -177,19 +188,20 @@ private:
 
     [[noreturn]] void refuseVertex(uint index) const {
         const auto& [where, text] = unsound.at(index);
-        fail(where, fmt::format("found \"{}\" as coordinates of a vertex that a face uses", printable(text)), "allowed are three finite numbers");
+        fail(where, fmt::format("found \"{}\" as coordinates of a vertex that a face uses", printable(text)),
+             "allowed are three finite numbers");
     }
 
     const std::filesystem::path& file;
     std::size_t line = 0;
     std::string joined; // of continued lines
     std::string material;
-    bool materialIsNew = false; // no face has it yet
+    bool materialIsNew = false;                                         // no face has it yet
     std::map<std::size_t, std::pair<std::size_t, std::string>> unsound; // vertices that are not finite: line and text
     Obj obj;
     std::vector<Obj::Corner> corners; // of all faces
     std::vector<Face> faces;
-    std::size_t begin = 0;    // first corner of the face whose triangles are next
+    std::size_t begin = 0;          // first corner of the face whose triangles are next
     std::vector<glm::dvec3> points; // its corners
 };
 

@@ -26,7 +26,8 @@ constexpr Range fraction{0, 1};
 /// keys and for nesting beyond 64 levels.
 nlohmann::json parseJson(const std::filesystem::path& file, const std::string& text);
 
-/// A place in a JSON value; both the value and the path must outlive it. Every function that reads throws InputError, "file: /json/pointer: found; allowed".
+/// A place in a JSON value; both the value and the path must outlive it. Every function that reads throws InputError,
+/// "file: /json/pointer: found; allowed".
 class Reader {
 public:
     Reader(const std::filesystem::path& path, const nlohmann::json& root) : file{&path}, value{&root} {}
@@ -50,7 +51,7 @@ public:
     double precise() const; // a number within the range of float, in double precision
     uint integer(uint low, uint high) const;
     vec3 vector(Range range = anyNumber) const;
-    glm::dvec3 place() const; // three numbers in double precision
+    glm::dvec3 place() const;      // three numbers in double precision
     vec3 color(Range range) const; // three numbers, or one for a grey
     bool boolean() const;
     std::string text() const;

@@ -28,9 +28,9 @@ struct View {
 };
 
 struct Scene {
-    Coordinates coordinates{}; // of all places and lengths here and on the device
-    std::string name; // the file's name without folder and extension
-    std::string text; // the scene file as read
+    Coordinates coordinates{};                // of all places and lengths here and on the device
+    std::string name;                         // the file's name without folder and extension
+    std::string text;                         // the scene file as read
     std::vector<std::filesystem::path> files; // that were read: the scene file first, then meshes
     std::vector<Node> nodes;
     std::vector<Leaf> leaves;

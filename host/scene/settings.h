@@ -7,7 +7,8 @@
 namespace vkpm {
 
 /// Layers of a picture that may be asked for, bit by bit; the first are those of LAYER_EMISSION and so on.
-const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect", "albedo", "normal", "depth", "noise", "bias"};
+const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect",
+                            "albedo",   "normal", "depth",    "noise",   "bias"};
 const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8, ASK_BIAS = 9;
 /// Of INTEGRATOR_PHOTON and so on, and of DENSITY_KERNEL_CONSTANT and so on, by number.
 const std::array integratorNames{"photon", "path", "direct", "photon-map", "light"};
@@ -16,25 +17,25 @@ const uint maxGatherRays = 1024;
 const uint allLayers = (1u << layerNames.size()) - 1;
 
 struct Settings {
-    uvec2 size{512, 512};                // pixels
-    uint passes = 16;                    //
-    uint photons = 50'000;               // emitted into the global map per pass
-    uint causticPhotons = 50'000;        // aimed at specular shapes per pass
-    uint gatherRays = 2;                 // from each diffuse point that the eye sees, per pass
-    std::optional<float> radius;         // of the first global gather, world units; measured if absent
-    std::optional<float> causticRadius;  // likewise of the caustic gather, by region
-    uint nearest = 0;                    // first radius: that of the k nearest photons, `radius` at most; 0: not so
-    float alpha = 2.0f / 3;              // how fast radii shrink from pass to pass; 1: not at all
-    uint kernel = DENSITY_KERNEL_CONSTANT;       // KERNEL_...
-    bool schlick = false;                // Schlick's Fresnel in place of the exact one
-    uint seed = 0;                       //
-    uint integrator = INTEGRATOR_PHOTON; // INTEGRATOR_...
-    bool showCaustic = false;            // photon-map: the caustic map in place of the global one
-    bool showPoints = false;             // photon-map: photons as points in place of the estimate
-    bool guides = true;                  // photons are sent where the eye looks, if many would lie elsewhere
-    uint layers = allLayers;             // bits by place in layerNames; what is not asked for is not rendered
-    bool allFeatures = false;            // the general program in place of one compiled for the scene; the same picture
-    float exposure = 0;                  // stops, for the PNG alone
+    uvec2 size{512, 512};                  // pixels
+    uint passes = 16;                      //
+    uint photons = 50'000;                 // emitted into the global map per pass
+    uint causticPhotons = 50'000;          // aimed at specular shapes per pass
+    uint gatherRays = 2;                   // from each diffuse point that the eye sees, per pass
+    std::optional<float> radius;           // of the first global gather, world units; measured if absent
+    std::optional<float> causticRadius;    // likewise of the caustic gather, by region
+    uint nearest = 0;                      // first radius: that of the k nearest photons, `radius` at most; 0: not so
+    float alpha = 2.0f / 3;                // how fast radii shrink from pass to pass; 1: not at all
+    uint kernel = DENSITY_KERNEL_CONSTANT; // KERNEL_...
+    bool schlick = false;                  // Schlick's Fresnel in place of the exact one
+    uint seed = 0;                         //
+    uint integrator = INTEGRATOR_PHOTON;   // INTEGRATOR_...
+    bool showCaustic = false;              // photon-map: the caustic map in place of the global one
+    bool showPoints = false;               // photon-map: photons as points in place of the estimate
+    bool guides = true;                    // photons are sent where the eye looks, if many would lie elsewhere
+    uint layers = allLayers;               // bits by place in layerNames; what is not asked for is not rendered
+    bool allFeatures = false; // the general program in place of one compiled for the scene; the same picture
+    float exposure = 0;       // stops, for the PNG alone
 };
 
 } // namespace vkpm

@@ -48,7 +48,8 @@ std::vector<dvec3> ShapeLoader::somePlaces(Reader shape) try {
     }
     if (const auto corner = shape.find("corner")) {
         const auto edges = shape.at("edges").elements(2, 2, "");
-        return {transform.point(corner->place()), transform.point(corner->place() + edges[0].place() + edges[1].place())};
+        return {transform.point(corner->place()),
+                transform.point(corner->place() + edges[0].place() + edges[1].place())};
     }
     const Mesh& mesh = meshOf(shape);
     if (mesh.triangles.empty()) return {};
@@ -82,18 +83,23 @@ void ShapeLoader::finish() {
         auto& [shape, primitives] = glass[i];
         primitives.box = boxOf(scene, primitives);
         for (const std::string& wrong : wrongWithGlass(scene, primitives)) warn(shape, wrong);
-        const auto touched = glass.size() > maxTouching ? glass.begin() + std::ptrdiff_t(i)
-                                                         : std::find_if(glass.begin(), glass.begin() + std::ptrdiff_t(i), [&](const auto& other) { return touch(scene, primitives, other.second); });
+        const auto touched =
+            glass.size() > maxTouching
+                ? glass.begin() + std::ptrdiff_t(i)
+                : std::find_if(glass.begin(), glass.begin() + std::ptrdiff_t(i),
+                               [&](const auto& other) { return touch(scene, primitives, other.second); });
         if (touched == glass.begin() + std::ptrdiff_t(i)) continue;
         const auto name = touched->first.find("name");
-        warn(shape, fmt::format("a face of the glass lies on one of {}, and light there takes one of the two alone; leave a gap, or make one face of both, with \"exteriorIor\"",
+        warn(shape, fmt::format("a face of the glass lies on one of {}, and light there takes one of the two alone; "
+                                "leave a gap, or make one face of both, with \"exteriorIor\"",
                                 name ? fmt::format("\"{}\"", printable(name->text(), 60)) : "another shape of glass"));
     }
 }
 
 /// Of primitives that were added from `first` on.
 void ShapeLoader::noteGlass(const Reader& shape, const Surface& surface, std::size_t first) {
-    if (scene.materials[surface.material].kind == MATERIAL_GLASS) glass.push_back({shape, {first, scene.primitives.size()}});
+    if (scene.materials[surface.material].kind == MATERIAL_GLASS)
+        glass.push_back({shape, {first, scene.primitives.size()}});
 }
 
 ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
@@ -155,7 +161,8 @@ void ShapeLoader::addSphere(Reader& shape) {
     const uint light = addLight(surface, LIGHT_SPHERE, a, b, vec3{0}, 4 * glm::pi<double>() * scaled * scaled);
     extendBounds(shape, a - b.x, a + b.x);
     requireRoom(shape);
-    spheres.push_back({a, b, poleOf(scene.coordinates.inside(transform.point(center)), scaled), surface.material, light, NONE});
+    spheres.push_back(
+        {a, b, poleOf(scene.coordinates.inside(transform.point(center)), scaled), surface.material, light, NONE});
     if (isSpecular(surface)) scene.targets.push_back({a, b.x});
 }
 
@@ -185,7 +192,8 @@ void ShapeLoader::addRectangle(Reader& shape) {
 const Mesh& ShapeLoader::meshOf(Reader& shape) {
     const Reader fileReader = shape.at("file");
     Smoothness smoothness = Smoothness::fromFile;
-    if (const auto smooth = shape.find("smooth")) smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
+    if (const auto smooth = shape.find("smooth"))
+        smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
     const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
     const auto known = meshes.find({file, smoothness});
     if (known != meshes.end()) return known->second;
@@ -246,7 +254,9 @@ void ShapeLoader::requireRoom(const Reader& shape) const {
 }
 
 /// Of the device, rounded once.
-vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const { return vec3{scene.coordinates.inside(transform.point(point))}; }
+vec3 ShapeLoader::place(const Transform& transform, dvec3 point) const {
+    return vec3{scene.coordinates.inside(transform.point(point))};
+}
 
 void ShapeLoader::extendBounds(const Reader& shape, vec3 low, vec3 high) {
     if (!isFinite(low) || !isFinite(high))

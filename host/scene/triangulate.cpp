@@ -26,8 +26,7 @@ std::vector<dvec2> flattened(std::span<const dvec3> polygon) {
     const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::vector<dvec2> points;
-    for (const dvec3 p : polygon)
-        points.push_back(normal[axis] < 0 ? dvec2{p[v], p[u]} : dvec2{p[u], p[v]});
+    for (const dvec3 p : polygon) points.push_back(normal[axis] < 0 ? dvec2{p[v], p[u]} : dvec2{p[u], p[v]});
     return points;
 }
 

@@ -20,22 +20,37 @@ struct FlyKey {
     int key;
     dvec3 direction;
 };
-const FlyKey flyKeys[]{{GLFW_KEY_W, {0, 0, 1}}, {GLFW_KEY_S, {0, 0, -1}}, {GLFW_KEY_A, {-1, 0, 0}}, {GLFW_KEY_D, {1, 0, 0}}, {GLFW_KEY_E, {0, 1, 0}}, {GLFW_KEY_Q, {0, -1, 0}}};
+const FlyKey flyKeys[]{{GLFW_KEY_W, {0, 0, 1}}, {GLFW_KEY_S, {0, 0, -1}}, {GLFW_KEY_A, {-1, 0, 0}},
+                       {GLFW_KEY_D, {1, 0, 0}}, {GLFW_KEY_E, {0, 1, 0}},  {GLFW_KEY_Q, {0, -1, 0}}};
 
 Action actionOf(int key, bool control, bool shift) {
-    if (control) return key == GLFW_KEY_S ? Action::save : key == GLFW_KEY_C ? Action::copyCamera : key == GLFW_KEY_Q ? Action::quit : Action::none;
+    if (control)
+        return key == GLFW_KEY_S   ? Action::save
+               : key == GLFW_KEY_C ? Action::copyCamera
+               : key == GLFW_KEY_Q ? Action::quit
+                                   : Action::none;
     switch (key) {
-    case GLFW_KEY_SPACE: return Action::pause;
-    case GLFW_KEY_TAB: return Action::togglePanel;
+    case GLFW_KEY_SPACE:
+        return Action::pause;
+    case GLFW_KEY_TAB:
+        return Action::togglePanel;
     case GLFW_KEY_HOME:
-    case GLFW_KEY_R: return Action::reset;
-    case GLFW_KEY_C: return Action::copyCamera;
-    case GLFW_KEY_P: return Action::togglePhotons;
-    case GLFW_KEY_G: return Action::toggleFollow;
-    case GLFW_KEY_T: return Action::nextCurve;
-    case GLFW_KEY_X: return shift ? Action::darker : Action::brighter;
-    case GLFW_KEY_Z: return Action::usualExposure;
-    default: return Action::none;
+    case GLFW_KEY_R:
+        return Action::reset;
+    case GLFW_KEY_C:
+        return Action::copyCamera;
+    case GLFW_KEY_P:
+        return Action::togglePhotons;
+    case GLFW_KEY_G:
+        return Action::toggleFollow;
+    case GLFW_KEY_T:
+        return Action::nextCurve;
+    case GLFW_KEY_X:
+        return shift ? Action::darker : Action::brighter;
+    case GLFW_KEY_Z:
+        return Action::usualExposure;
+    default:
+        return Action::none;
     }
 }
 
@@ -43,38 +58,42 @@ Action actionOf(int key, bool control, bool shift) {
 bool moveByKey(int key, bool shift, View& view) {
     const dvec2 step{(key == GLFW_KEY_RIGHT) - (key == GLFW_KEY_LEFT), (key == GLFW_KEY_UP) - (key == GLFW_KEY_DOWN)};
     if (step != dvec2(0)) view = shift ? pan(view, 0.05 * step) : orbit(view, -keyAngle * step);
-    const bool nearer = key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD, farther = key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT;
+    const bool nearer = key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD,
+               farther = key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT;
     if (nearer || farther) view = dolly(view, nearer ? dollyPerStep : 1 / dollyPerStep);
     return step != dvec2(0) || nearer || farther;
 }
 
 } // namespace
 
-const std::vector<KeyHelp> keyHelp{{"1 ... 0", "beauty, emission, direct, specular, caustic, indirect, albedo, normal, noise, bias"},
-                                   {"drag", "orbit (left or middle button)"},
-                                   {"Shift + drag, right button", "pan"},
-                                   {"wheel, Ctrl + drag, + -", "dolly"},
-                                   {"double click", "focus: orbit around this point"},
-                                   {"W A S D, E Q", "fly; with Shift faster"},
-                                   {"F", "drags look about, or orbit again"},
-                                   {"arrows", "orbit; with Shift pan"},
-                                   {"Home, R", "the scene's camera again"},
-                                   {"C", "copy the camera as JSON"},
-                                   {"X, Shift + X, Z", "exposure up, down, the scene's"},
-                                   {"T", "next tone curve"},
-                                   {"P", "photons as points"},
-                                   {"G", "the film follows the window"},
-                                   {"Space", "pause, go on"},
-                                   {"Ctrl + S", "save EXR and PNG"},
-                                   {"Tab", "hide or show the panel"},
-                                   {"Ctrl + Q", "close and save"}};
+const std::vector<KeyHelp> keyHelp{
+    {"1 ... 0", "beauty, emission, direct, specular, caustic, indirect, albedo, normal, noise, bias"},
+    {"drag", "orbit (left or middle button)"},
+    {"Shift + drag, right button", "pan"},
+    {"wheel, Ctrl + drag, + -", "dolly"},
+    {"double click", "focus: orbit around this point"},
+    {"W A S D, E Q", "fly; with Shift faster"},
+    {"F", "drags look about, or orbit again"},
+    {"arrows", "orbit; with Shift pan"},
+    {"Home, R", "the scene's camera again"},
+    {"C", "copy the camera as JSON"},
+    {"X, Shift + X, Z", "exposure up, down, the scene's"},
+    {"T", "next tone curve"},
+    {"P", "photons as points"},
+    {"G", "the film follows the window"},
+    {"Space", "pause, go on"},
+    {"Ctrl + S", "save EXR and PNG"},
+    {"Tab", "hide or show the panel"},
+    {"Ctrl + Q", "close and save"}};
 
 void Controls::key(const Event& event, View& view) {
     const bool control = event.modifiers & GLFW_MOD_CONTROL, shift = event.modifiers & GLFW_MOD_SHIFT;
-    if (event.action == GLFW_RELEASE || (!control && moveByKey(event.code, shift, view)) || event.action != GLFW_PRESS) return;
+    if (event.action == GLFW_RELEASE || (!control && moveByKey(event.code, shift, view)) || event.action != GLFW_PRESS)
+        return;
     if (const Action action = actionOf(event.code, control, shift); action != Action::none) asked.push_back(action);
     if (control) return;
-    if (event.code >= GLFW_KEY_0 && event.code <= GLFW_KEY_9) chosen = event.code == GLFW_KEY_0 ? 9u : uint(event.code - GLFW_KEY_1);
+    if (event.code >= GLFW_KEY_0 && event.code <= GLFW_KEY_9)
+        chosen = event.code == GLFW_KEY_0 ? 9u : uint(event.code - GLFW_KEY_1);
     if (event.code == GLFW_KEY_F) looksAbout = !looksAbout;
     for (const FlyKey& fly : flyKeys)
         if (event.code == fly.key) view = vkpm::fly(view, fly.direction * flySpeed * nudge);
@@ -93,7 +112,8 @@ void Controls::press(const Event& event, const Scenery& scenery) {
     const bool twice = glfwGetTime() - lastPress < doubleClick && glm::distance(lastPlace, event.position) < still;
     lastPress = twice ? -1 : glfwGetTime();
     lastPlace = event.position;
-    if (twice && scenery.picture.size.x > 0) clicked = (event.position - dvec2(scenery.picture.corner)) / dvec2(scenery.picture.size);
+    if (twice && scenery.picture.size.x > 0)
+        clicked = (event.position - dvec2(scenery.picture.corner)) / dvec2(scenery.picture.size);
 }
 
 /// Shift pans and Ctrl dollies with any button, as in Blender; the right button pans, as in viewers of glTF.
@@ -114,8 +134,12 @@ void Controls::take(const std::vector<Event>& events, const Scenery& scenery, Vi
             hold(event, scenery);
             if (!scenery.typing) key(event, view);
             break;
-        case Event::Kind::button: press(event, scenery); break;
-        case Event::Kind::move: drag(event, scenery, view); break;
+        case Event::Kind::button:
+            press(event, scenery);
+            break;
+        case Event::Kind::move:
+            drag(event, scenery, view);
+            break;
         case Event::Kind::scroll:
             if (scenery.isPicture(event.position)) view = dolly(view, std::pow(dollyPerStep, event.scroll));
             break;

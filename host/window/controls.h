@@ -8,7 +8,22 @@
 namespace vkpm {
 
 /// What the user may ask for besides moving the camera.
-enum class Action { none, pause, togglePanel, save, reset, copyCamera, togglePhotons, toggleFollow, nextCurve, brighter, darker, usualExposure, usualSettings, quit };
+enum class Action {
+    none,
+    pause,
+    togglePanel,
+    save,
+    reset,
+    copyCamera,
+    togglePhotons,
+    toggleFollow,
+    nextCurve,
+    brighter,
+    darker,
+    usualExposure,
+    usualSettings,
+    quit
+};
 
 /// A line of the table of keys, in the panel and in host/window/README.md.
 struct KeyHelp {
@@ -39,7 +54,8 @@ public:
     /// No key is held any more: the window has lost its keys to another.
     void release();
 
-    /// Since the last call: actions in their order, a layer that was chosen, places of the film that were double-clicked.
+    /// Since the last call: actions in their order, a layer that was chosen, places of the film that were
+    /// double-clicked.
     std::vector<Action> actions() { return std::exchange(asked, {}); }
     std::optional<uint> layer() { return std::exchange(chosen, {}); }
     std::optional<dvec2> focus() { return std::exchange(clicked, {}); }

@@ -22,7 +22,8 @@ Settings draftSettings(Settings settings) {
 } // namespace
 
 Draft::Draft(Gpu& gpu, const Scene& scene, const Settings& settings)
-    : scale(std::clamp(128.0 / std::max(settings.size.x, settings.size.y), coarsest, finest)), renderer(gpu, scene, draftSettings(settings)) {
+    : scale(std::clamp(128.0 / std::max(settings.size.x, settings.size.y), coarsest, finest)),
+      renderer(gpu, scene, draftSettings(settings)) {
     renderer.renderPass(0); // makes the maps
 }
 
@@ -31,7 +32,8 @@ uvec2 Draft::sizeFor(uvec2 film) const { return glm::max(uvec2(glm::dvec2(film) 
 /// Rarely, and by much: a change of size shows.
 void Draft::adapt(double seconds) {
     const double ratio = secondsPerFrame / seconds;
-    if (ratio < 0.75 || ratio > 2) scale = std::clamp(scale * std::sqrt(std::clamp(ratio, 0.25, 1.5)), coarsest, finest);
+    if (ratio < 0.75 || ratio > 2)
+        scale = std::clamp(scale * std::sqrt(std::clamp(ratio, 0.25, 1.5)), coarsest, finest);
 }
 
 Picture Draft::render(const View& view, uvec2 film) {

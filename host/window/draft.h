@@ -5,8 +5,8 @@
 
 namespace vkpm {
 
-/// A second, small renderer of the scene, whose photon maps are made once: a frame takes camera paths alone. Its size follows the
-/// time that frames take.
+/// A second, small renderer of the scene, whose photon maps are made once: a frame takes camera paths alone. Its size
+/// follows the time that frames take.
 class Draft {
 public:
     Draft(Gpu& gpu, const Scene& scene, const Settings& settings);

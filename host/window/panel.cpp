@@ -47,7 +47,8 @@ std::string timeText(double seconds) {
 std::string radiusText(const std::optional<GatherRadii>& radii, float factor) {
     if (!radii) return "none";
     if (radii->smallest == radii->greatest) return fmt::format("{:.4g}", radii->typical * factor);
-    return fmt::format("{:.3g} to {:.3g}, most {:.3g}", radii->smallest * factor, radii->greatest * factor, radii->typical * factor);
+    return fmt::format("{:.3g} to {:.3g}, most {:.3g}", radii->smallest * factor, radii->greatest * factor,
+                       radii->typical * factor);
 }
 
 void showProgress(const PanelInput& input) {
@@ -62,7 +63,8 @@ void showProgress(const PanelInput& input) {
     row("of caustics", radiusText(s.causticRadii, s.radiusFactor));
     const bool draft = input.draftsPerSecond > 0 && input.picture;
     const uvec2 size = draft ? input.picture->size : s.settings.size;
-    row("film", fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
+    row("film",
+        fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
     if (!input.about.empty()) note(input.about);
     for (const std::string& text : s.warnings) note(text, warning);
     if (!s.problem.empty()) note(s.problem, warning);
@@ -84,14 +86,17 @@ void chooseLayer(PanelChoices& choices) {
         for (uint i = 0; i < shownLayers.size(); i++) { // down the left column, then the right
             ImGui::TableNextColumn();
             const uint layer = i / 2 + i % 2 * 5;
-            if (ImGui::RadioButton(fmt::format("{} {}", (layer + 1) % 10, shownLayers[layer]).c_str(), choices.tone.layer == layer)) choices.tone.layer = layer;
+            if (ImGui::RadioButton(fmt::format("{} {}", (layer + 1) % 10, shownLayers[layer]).c_str(),
+                                   choices.tone.layer == layer))
+                choices.tone.layer = layer;
         }
         ImGui::EndTable();
     }
     if (choices.tone.layer >= SHOW_NOISE) note(fmt::format("shown {} times as bright", errorGain));
     ImGui::SliderFloat("exposure", &choices.tone.exposure, -8, 8, "%+.2f stops");
     int curve = int(choices.tone.curve);
-    if (ImGui::Combo("curve", &curve, toneCurveNames.data(), int(toneCurveNames.size()))) choices.tone.curve = ToneCurve(curve);
+    if (ImGui::Combo("curve", &curve, toneCurveNames.data(), int(toneCurveNames.size())))
+        choices.tone.curve = ToneCurve(curve);
     note("Files keep the scene's exposure, without a curve.");
     ImGui::Checkbox("photons as points", &choices.photons);
     ImGui::Checkbox("film follows the window", &choices.follows);
@@ -110,7 +115,8 @@ void chooseCamera(PanelChoices& choices) {
 void countSlider(const char* name, uint now, int low, int high, std::optional<uint>& option) {
     static std::map<std::string, int> held;
     int value = held.contains(name) ? held[name] : int(now);
-    if (ImGui::SliderInt(name, &value, low, high, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) held[name] = value;
+    if (ImGui::SliderInt(name, &value, low, high, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        held[name] = value;
     if (ImGui::IsItemDeactivatedAfterEdit()) option = uint(value);
     if (!ImGui::IsItemActive()) held.erase(name);
 }
@@ -125,7 +131,8 @@ void numberSlider(const char* name, float now, float low, float high, bool logar
 }
 
 /// A radius that is measured unless it is given.
-void radiusSlider(const char* name, const std::optional<GatherRadii>& radii, const std::optional<float>& given, std::optional<float>& option) {
+void radiusSlider(const char* name, const std::optional<GatherRadii>& radii, const std::optional<float>& given,
+                  std::optional<float>& option) {
     if (!radii) return;
     numberSlider(name, given.value_or(radii->typical), radii->greatest / 50, radii->greatest * 4, true, option);
     if (given) return;
@@ -172,7 +179,9 @@ void drawPanel(const PanelInput& input, PanelChoices& choices) {
     const float wide = float(panelWidth(input.scale));
     ImGui::SetNextWindowPos({float(input.window.x) - wide, 0});
     ImGui::SetNextWindowSize({wide, float(input.window.y)});
-    ImGui::Begin("vkpm", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+    ImGui::Begin("vkpm", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoNav);
     ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
     if (ImGui::Button(choices.paused ? "go on" : "pause", {0.3f * wide, 0})) choices.actions.push_back(Action::pause);
     ImGui::SameLine();

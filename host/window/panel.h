@@ -9,8 +9,8 @@ namespace vkpm {
 /// What the panel shows of the window's own.
 struct PanelInput {
     const RenderState& state;
-    const Picture* picture; // null before the first
-    double draftsPerSecond; // while the camera moves
+    const Picture* picture;   // null before the first
+    double draftsPerSecond;   // while the camera moves
     const std::string& about; // what was done last
     float scale;
     ivec2 window;

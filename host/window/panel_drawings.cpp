@@ -9,14 +9,17 @@ namespace vkpm {
 namespace {
 
 const ImU32 gridColor = IM_COL32(255, 255, 255, 28), textColor = IM_COL32(170, 174, 182, 255);
-const ImU32 errorColor = IM_COL32(110, 180, 255, 255), noiseColor = IM_COL32(150, 150, 150, 255), biasColor = IM_COL32(240, 160, 90, 255);
+const ImU32 errorColor = IM_COL32(110, 180, 255, 255), noiseColor = IM_COL32(150, 150, 150, 255),
+            biasColor = IM_COL32(240, 160, 90, 255);
 
 /// Decades from a value to another along a side of a drawing.
 struct Axis {
     double low, high; // logarithms
     float begin, end; // pixels
 
-    float at(double value) const { return begin + float((std::log10(std::max(value, 1e-12)) - low) / (high - low)) * (end - begin); }
+    float at(double value) const {
+        return begin + float((std::log10(std::max(value, 1e-12)) - low) / (high - low)) * (end - begin);
+    }
 };
 
 Axis axisFor(double least, double most, float begin, float end) {
@@ -47,7 +50,8 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
     const float wide = ImGui::GetContentRegionAvail().x, font = ImGui::GetFontSize();
     ImGui::Dummy({wide, height});
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float left = corner.x + 3.2f * font, right = corner.x + wide, top = corner.y, bottom = corner.y + height - 1.3f * font;
+    const float left = corner.x + 3.2f * font, right = corner.x + wide, top = corner.y,
+                bottom = corner.y + height - 1.3f * font;
     draw.AddRectFilled({left, top}, {right, bottom}, IM_COL32(0, 0, 0, 60));
 
     double least = errors[0].error.error, most = least;
@@ -55,14 +59,19 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
         least = std::min(least, std::max(point.error.noise, 0.2 * point.error.error));
         most = std::max(most, point.error.error);
     }
-    const Axis x = axisFor(errors.front().seconds, errors.back().seconds, left, right), y = axisFor(least, most, bottom, top);
+    const Axis x = axisFor(errors.front().seconds, errors.back().seconds, left, right),
+               y = axisFor(least, most, bottom, top);
     forEachTick(x, 3.5f * font, [&](double seconds, bool fits) {
         draw.AddLine({x.at(seconds), top}, {x.at(seconds), bottom}, gridColor);
-        if (fits) draw.AddText({std::min(x.at(seconds), right - 2.5f * font), bottom}, textColor, fmt::format("{} s", seconds).c_str());
+        if (fits)
+            draw.AddText({std::min(x.at(seconds), right - 2.5f * font), bottom}, textColor,
+                         fmt::format("{} s", seconds).c_str());
     });
     forEachTick(y, 1.1f * font, [&](double error, bool fits) {
         draw.AddLine({left, y.at(error)}, {right, y.at(error)}, gridColor);
-        if (fits) draw.AddText({corner.x, std::clamp(y.at(error) - font / 2, top, bottom - font)}, textColor, percent(error).c_str());
+        if (fits)
+            draw.AddText({corner.x, std::clamp(y.at(error) - font / 2, top, bottom - font)}, textColor,
+                         percent(error).c_str());
     });
 
     draw.PushClipRect({left, top}, {right, bottom}, true);
@@ -72,9 +81,12 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
         draw.AddPolyline(points.data(), int(points.size()), color, 0, thickness);
         for (const ImVec2& point : points) draw.AddCircleFilled(point, 1.2f * thickness, color);
     };
-    curve(biasColor, [](const ErrorEstimate& e) { return e.bias; }, 1.0f);
-    curve(noiseColor, [](const ErrorEstimate& e) { return e.noise; }, 1.0f);
-    curve(errorColor, [](const ErrorEstimate& e) { return e.error; }, 2.0f);
+    curve(
+        biasColor, [](const ErrorEstimate& e) { return e.bias; }, 1.0f);
+    curve(
+        noiseColor, [](const ErrorEstimate& e) { return e.noise; }, 1.0f);
+    curve(
+        errorColor, [](const ErrorEstimate& e) { return e.error; }, 2.0f);
     draw.PopClipRect();
     const ImVec2 legend{right - 11 * font, top};
     draw.AddText(legend, errorColor, "error");
@@ -82,22 +94,27 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
     draw.AddText({legend.x + 7.5f * font, top}, biasColor, "bias");
 }
 
-/// Those that the picture's own depth does not hide; a photon on a surface may be off its depth by some roughness of pixels.
+/// Those that the picture's own depth does not hide; a photon on a surface may be off its depth by some roughness of
+/// pixels.
 void drawPhotons(const Picture& picture, const Rectangle& where, float scale) {
     const double tolerance = 0.02;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     float brightest = 1e-6f;
-    for (const PhotonPoint& photon : picture.photons) brightest = std::max({brightest, photon.color.x, photon.color.y, photon.color.z});
+    for (const PhotonPoint& photon : picture.photons)
+        brightest = std::max({brightest, photon.color.x, photon.color.y, photon.color.z});
     for (const PhotonPoint& photon : picture.photons) {
         const auto seen = seenAt(picture.view, picture.size, photon.position);
-        if (!seen || glm::any(glm::lessThan(seen->place, dvec2(0))) || glm::any(glm::greaterThanEqual(seen->place, dvec2(1)))) continue;
+        if (!seen || glm::any(glm::lessThan(seen->place, dvec2(0))) ||
+            glm::any(glm::greaterThanEqual(seen->place, dvec2(1))))
+            continue;
         const uvec2 pixel(seen->place * dvec2(picture.size));
         const Sample& sample = picture.pixels[std::size_t(pixel.y) * picture.size.x + pixel.x].mean;
         const double depth = sample.covered > 0 ? double(sample.depth) / sample.covered : 0;
         if (std::abs(seen->depth - depth) > tolerance * depth) continue;
         const dvec2 at = dvec2(where.corner) + seen->place * dvec2(where.size);
         const vec3 c = glm::sqrt(photon.color / brightest) * 255.0f;
-        draw.AddRectFilled({float(at.x), float(at.y)}, {float(at.x) + 1.5f * scale, float(at.y) + 1.5f * scale}, IM_COL32(int(c.x), int(c.y), int(c.z), 255));
+        draw.AddRectFilled({float(at.x), float(at.y)}, {float(at.x) + 1.5f * scale, float(at.y) + 1.5f * scale},
+                           IM_COL32(int(c.x), int(c.y), int(c.z), 255));
     }
 }
 

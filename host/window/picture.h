@@ -1,7 +1,7 @@
 /// What passes from the thread that renders to the window.
 #pragma once
-#include "render/error_estimate.h"
 #include "output/statistics.h"
+#include "render/error_estimate.h"
 #include "scene/scene.h"
 
 namespace vkpm {
@@ -35,9 +35,9 @@ struct RenderState {
     View sceneView{}; // as the scene file has it
     std::string device{};
     std::string activity = "loading";
-    std::string problem{}; // of the scene file or of saving; empty if there is none
+    std::string problem{};               // of the scene file or of saving; empty if there is none
     std::vector<std::string> warnings{}; // of the scene
-    std::string saved{};   // the file that was written last
+    std::string saved{};                 // the file that was written last
     uint saves = 0;
     uint passes = 0;
     uint passesWanted = NONE;

@@ -13,10 +13,17 @@ using Layout = vk::ImageLayout;
 
 /// All that was done to an image before is visible to all that follows, in another layout.
 static void change(const vk::raii::CommandBuffer& commands, vk::Image image, Layout from, Layout to) {
-    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands, .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
                                           .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                          .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite, .oldLayout = from, .newLayout = to,
-                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = image, .subresourceRange = allOfIt};
+                                          .dstAccessMask =
+                                              vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                          .oldLayout = from,
+                                          .newLayout = to,
+                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .image = image,
+                                          .subresourceRange = allOfIt};
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
@@ -35,25 +42,31 @@ void Presenter::beginFrame() { ImGui_ImplVulkan_NewFrame(); }
 void Presenter::Handles::showPicture(vk::Image target, const Rectangle& where) {
     if (picture.changed) {
         change(commands, *picture.image, Layout::eUndefined, Layout::eTransferDstOptimal);
-        commands.copyBufferToImage(*picture.staging, *picture.image, Layout::eTransferDstOptimal,
-                                   vk::BufferImageCopy{.imageSubresource = color, .imageExtent = {picture.size.x, picture.size.y, 1}});
+        commands.copyBufferToImage(
+            *picture.staging, *picture.image, Layout::eTransferDstOptimal,
+            vk::BufferImageCopy{.imageSubresource = color, .imageExtent = {picture.size.x, picture.size.y, 1}});
         change(commands, *picture.image, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
         picture.changed = false;
     }
     const auto at = [](ivec2 p, int z) { return vk::Offset3D{p.x, p.y, z}; };
-    const vk::ImageBlit blit{.srcSubresource = color, .srcOffsets = {{at(ivec2(0), 0), at(ivec2(picture.size), 1)}},
-                             .dstSubresource = color, .dstOffsets = {{at(where.corner, 0), at(where.corner + where.size, 1)}}};
+    const vk::ImageBlit blit{.srcSubresource = color,
+                             .srcOffsets = {{at(ivec2(0), 0), at(ivec2(picture.size), 1)}},
+                             .dstSubresource = color,
+                             .dstOffsets = {{at(where.corner, 0), at(where.corner + where.size, 1)}}};
     const bool same = where.size == ivec2(picture.size);
-    commands.blitImage(*picture.image, Layout::eTransferSrcOptimal, target, Layout::eTransferDstOptimal, blit, same ? vk::Filter::eNearest : vk::Filter::eLinear);
+    commands.blitImage(*picture.image, Layout::eTransferSrcOptimal, target, Layout::eTransferDstOptimal, blit,
+                       same ? vk::Filter::eNearest : vk::Filter::eLinear);
 }
 
 void Presenter::Handles::record(std::uint32_t index, const Rectangle& where) {
     const vk::Image target = swapchain.images[index];
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     change(commands, target, Layout::eUndefined, Layout::eTransferDstOptimal);
-    commands.clearColorImage(target, Layout::eTransferDstOptimal, vk::ClearColorValue{std::array{0.09f, 0.09f, 0.10f, 1.0f}}, allOfIt);
+    commands.clearColorImage(target, Layout::eTransferDstOptimal,
+                             vk::ClearColorValue{std::array{0.09f, 0.09f, 0.10f, 1.0f}}, allOfIt);
     const bool inside = where.size.x > 0 && where.size.y > 0 && where.corner.x >= 0 && where.corner.y >= 0 &&
-                        where.corner.x + where.size.x <= int(swapchain.extent.width) && where.corner.y + where.size.y <= int(swapchain.extent.height);
+                        where.corner.x + where.size.x <= int(swapchain.extent.width) &&
+                        where.corner.y + where.size.y <= int(swapchain.extent.height);
     if (picture.size.x > 0 && inside) {
         change(commands, target, Layout::eTransferDstOptimal, Layout::eTransferDstOptimal);
         showPicture(target, where);
@@ -61,7 +74,9 @@ void Presenter::Handles::record(std::uint32_t index, const Rectangle& where) {
     change(commands, target, Layout::eTransferDstOptimal, Layout::eColorAttachmentOptimal);
 
     const vk::Rect2D area{.extent = swapchain.extent};
-    commands.beginRenderPass({.renderPass = *renderPass, .framebuffer = *swapchain.framebuffers[index], .renderArea = area}, vk::SubpassContents::eInline);
+    commands.beginRenderPass(
+        {.renderPass = *renderPass, .framebuffer = *swapchain.framebuffers[index], .renderArea = area},
+        vk::SubpassContents::eInline);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), *commands);
     commands.endRenderPass();
     change(commands, target, Layout::eColorAttachmentOptimal, Layout::ePresentSrcKHR);
@@ -70,17 +85,27 @@ void Presenter::Handles::record(std::uint32_t index, const Rectangle& where) {
 
 void Presenter::Handles::submit(std::uint32_t image) {
     const vk::SemaphoreSubmitInfo wait{.semaphore = *acquired, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
-    const vk::SemaphoreSubmitInfo signal{.semaphore = *swapchain.drawn[image], .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    const vk::SemaphoreSubmitInfo signal{.semaphore = *swapchain.drawn[image],
+                                         .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
     const vk::CommandBufferSubmitInfo buffer{.commandBuffer = *commands};
     device.resetFences(*finished);
-    queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1, .pWaitSemaphoreInfos = &wait, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer,
-                                  .signalSemaphoreInfoCount = 1, .pSignalSemaphoreInfos = &signal}, *finished);
+    queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
+                                  .pWaitSemaphoreInfos = &wait,
+                                  .commandBufferInfoCount = 1,
+                                  .pCommandBufferInfos = &buffer,
+                                  .signalSemaphoreInfoCount = 1,
+                                  .pSignalSemaphoreInfos = &signal},
+                  *finished);
 }
 
 bool Presenter::Handles::present(std::uint32_t image) {
     const vk::Semaphore drawn = *swapchain.drawn[image];
     const vk::SwapchainKHR shown = *swapchain.handle;
-    outOfDate = queue.presentKHR({.waitSemaphoreCount = 1, .pWaitSemaphores = &drawn, .swapchainCount = 1, .pSwapchains = &shown, .pImageIndices = &image}) == vk::Result::eSuboptimalKHR;
+    outOfDate = queue.presentKHR({.waitSemaphoreCount = 1,
+                                  .pWaitSemaphores = &drawn,
+                                  .swapchainCount = 1,
+                                  .pSwapchains = &shown,
+                                  .pImageIndices = &image}) == vk::Result::eSuboptimalKHR;
     return true;
 }
 

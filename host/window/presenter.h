@@ -30,8 +30,8 @@ public:
 
     /// ImGui's frame begins; draw() ends it.
     void beginFrame();
-    /// Shows the picture in a rectangle and ImGui's draw data over it. A window without pixels, or one whose last frames still wait
-    /// to be shown, is left as it is: false. Throws vk::DeviceLostError.
+    /// Shows the picture in a rectangle and ImGui's draw data over it. A window without pixels, or one whose last
+    /// frames still wait to be shown, is left as it is: false. Throws vk::DeviceLostError.
     bool draw(const Rectangle& where);
 
 private:

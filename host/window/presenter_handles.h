@@ -1,8 +1,8 @@
 /// The Vulkan handles behind Presenter.
 #pragma once
 #include "gpu/instance.h"
-#include "window/presenter.h"
 #include "shared_paths.h"
+#include "window/presenter.h"
 #include <vector>
 
 namespace vkpm {

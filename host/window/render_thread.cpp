@@ -1,24 +1,23 @@
 /// Wishes to passes: what the thread does next.
 #include "window/render_thread.h"
 #include "gpu/audit.h"
-#include "output/atomic_file.h"
 #include "interrupt.h"
+#include "output/atomic_file.h"
 #include "output/messages.h"
-#include "scene/settings_json.h"
 #include "scene/camera_json.h"
+#include "scene/settings_json.h"
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace vkpm {
 
-/// Lets the window's thread go first where there are few processors. Threads that this one starts, such as those of a driver for
-/// processors, do the same.
-static void giveWay() {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-}
+/// Lets the window's thread go first where there are few processors. Threads that this one starts, such as those of a
+/// driver for processors, do the same.
+static void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); }
 
-RenderThread::RenderThread(const RenderOptions& asked, EventLog& events, std::function<void()> call) : wake(std::move(call)), log(events) {
+RenderThread::RenderThread(const RenderOptions& asked, EventLog& events, std::function<void()> call)
+    : wake(std::move(call)), log(events) {
     wanted.options = asked;
     thread = std::jthread([this] { run(); });
 }
@@ -32,7 +31,8 @@ void RenderThread::wish(const std::function<void(Wishes&)>& change) {
     const Wishes before = wanted;
     change(wanted);
     version++;
-    const bool anew = wanted.moving || wanted.discard || wanted.view != before.view || wanted.reloads != before.reloads ||
+    const bool anew = wanted.moving || wanted.discard || wanted.view != before.view ||
+                      wanted.reloads != before.reloads ||
                       settingsJson(wanted.options.over({})) != settingsJson(before.options.over({}));
     if (leavable && (anew || (wanted.close && shared.passes == 0))) cancel = true;
     changed.notify_all();
@@ -131,20 +131,22 @@ void RenderThread::tell(const Wishes& wish) {
     const bool last = passes > 0 && (wish.paused || session->job->done());
     const bool due = published != passes || withPhotons != wish.photons;
     withPhotons = wish.photons;
-    if (passes > 0 && due && (last || passes == 1 || secondsSince(publication) > std::max(0.25, 4 * publishing))) publish();
+    if (passes > 0 && due && (last || passes == 1 || secondsSince(publication) > std::max(0.25, 4 * publishing)))
+        publish();
     report(!last ? "rendering" : wish.paused ? "paused" : "done");
     hasWork = !last;
 }
 
-/// Has a scene, if need be the newest that its file has; false if it is broken or cannot be rendered, and was told so, or was taken up
-/// just now.
+/// Has a scene, if need be the newest that its file has; false if it is broken or cannot be rendered, and was told so,
+/// or was taken up just now.
 bool RenderThread::load(const Wishes& wish) {
     if (session && reloaded == wish.reloads) return true;
     const bool first = !session;
     try {
         auto next = std::make_unique<Session>(Session{wish.options, loadScene(wish.options.scene)});
         requireFilesApart(next->options, next->scene.files);
-        for (const std::string& warning : next->scene.warnings) warn(warning), log.write("warning", {{"text", warning}});
+        for (const std::string& warning : next->scene.warnings)
+            warn(warning), log.write("warning", {{"text", warning}});
         if (first) {
             requireWritable(next->options.output);
             requireWritable(pngBeside(next->options.output));

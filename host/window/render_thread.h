@@ -12,19 +12,19 @@ namespace vkpm {
 
 /// What the window wants; the thread sees to it as soon as it can.
 struct Wishes {
-    RenderOptions options{};          // the command line's, with the panel's values over them
+    RenderOptions options{};    // the command line's, with the panel's values over them
     std::optional<View> view{}; // absent: the scene's
     bool moving = false;        // drafts of the view, until it rests
     bool paused = false;
-    bool photons = false;       // pictures come with photons
-    uint reloads = 0;           // how often the scene's file has changed,
-    uint saves = 0;             // and a file was asked for
+    bool photons = false; // pictures come with photons
+    uint reloads = 0;     // how often the scene's file has changed,
+    uint saves = 0;       // and a file was asked for
     bool close = false;
-    bool discard = false;       // without saving
+    bool discard = false; // without saving
 };
 
-/// A scene with settings, and what renders it. The next one is made before this one is let go, so that what cannot be rendered costs
-/// no passes.
+/// A scene with settings, and what renders it. The next one is made before this one is let go, so that what cannot be
+/// rendered costs no passes.
 struct Session {
     RenderOptions options;
     Scene scene; // with the view that is rendered
@@ -52,8 +52,8 @@ public:
     /// Whether it has ended, by itself only because of a failure.
     bool ended() const;
 
-    /// Ends the pass under way, unless it is the first, and saves; false if there was no pass to save. Throws what the thread failed
-    /// of.
+    /// Ends the pass under way, unless it is the first, and saves; false if there was no pass to save. Throws what the
+    /// thread failed of.
     bool close();
 
 private:
@@ -102,24 +102,24 @@ private:
     EventLog& log;
     Clock::time_point start = Clock::now();
     std::uint64_t handled = 0; // version of the wishes
-    std::optional<View> view; // wished, absent: the scene's
+    std::optional<View> view;  // wished, absent: the scene's
     uint reloaded = 0;
     uint saved = 0;
     std::optional<Gpu> gpu;
     std::unique_ptr<Session> session;
     std::optional<uvec2> refusedSize; // of a film
     bool refused = false;             // settings
-    bool resumed = false;   // what the output held was taken up
-    bool midPass = false;   // the job's film has part of a pass that was left
-    bool failed = false;    // the problem is the device's
-    bool halted = false;    // nothing to render until a wish changes
-    bool hasWork = true;    // without a wish
-    uint published = 0;     // passes in the latest picture
+    bool resumed = false;             // what the output held was taken up
+    bool midPass = false;             // the job's film has part of a pass that was left
+    bool failed = false;              // the problem is the device's
+    bool halted = false;              // nothing to render until a wish changes
+    bool hasWork = true;              // without a wish
+    uint published = 0;               // passes in the latest picture
     bool withPhotons = false;
     Clock::time_point publication{};
-    double publishing = 0;  // seconds that the last one took
-    uint nextEstimate = 2;  // passes
-    uint losses = 0;        // of the device
+    double publishing = 0; // seconds that the last one took
+    uint nextEstimate = 2; // passes
+    uint losses = 0;       // of the device
     RenderState own;
     std::exception_ptr failure;
     bool savedAtEnd = false;

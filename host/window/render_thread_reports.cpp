@@ -1,7 +1,7 @@
 /// What the thread has to tell: pictures, numbers, files, failures.
 #include "render/radius.h"
-#include "window/render_thread.h"
 #include "shared_photons.h"
+#include "window/render_thread.h"
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -20,7 +20,10 @@ void addPoints(const std::optional<MapStages>& map, std::vector<PhotonPoint>& po
 void RenderThread::publish() {
     const RenderJob& job = *session->job;
     const auto before = Clock::now();
-    const auto shown = std::make_shared<Picture>(Picture{.pixels = job.renderer.film.download(), .size = session->settings.size, .view = session->scene.view, .passes = job.passCount()});
+    const auto shown = std::make_shared<Picture>(Picture{.pixels = job.renderer.film.download(),
+                                                         .size = session->settings.size,
+                                                         .view = session->scene.view,
+                                                         .passes = job.passCount()});
     if (shown->passes >= nextEstimate) estimate(*shown);
     if (withPhotons) showPhotons(*shown);
     published = shown->passes;
@@ -85,8 +88,8 @@ void RenderThread::saySo(std::string problem) {
     report(own.activity.c_str());
 }
 
-/// After a failure the picture stays. A lost device is opened anew, and rendering begins again; what else failed waits for other
-/// wishes.
+/// After a failure the picture stays. A lost device is opened anew, and rendering begins again; what else failed waits
+/// for other wishes.
 void RenderThread::recover(const std::exception& error) {
     endLastPass();
     log.write("failed", {{"cause", error.what()}});

@@ -17,7 +17,8 @@ void SceneWatch::lookForMeshes() {
     const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
     if (!json.is_object() || !json.contains("shapes") || !json["shapes"].is_array()) return;
     for (const auto& shape : json["shapes"])
-        if (shape.is_object() && shape.contains("file") && shape["file"].is_string()) stamps.try_emplace(scene.parent_path() / shape["file"].get<std::string>());
+        if (shape.is_object() && shape.contains("file") && shape["file"].is_string())
+            stamps.try_emplace(scene.parent_path() / shape["file"].get<std::string>());
 }
 
 bool SceneWatch::changed() {

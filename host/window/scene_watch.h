@@ -10,7 +10,8 @@ class SceneWatch {
 public:
     explicit SceneWatch(std::filesystem::path scene);
 
-    /// Whether a file has changed since the last call or since the beginning; one that is being replaced, once it is there.
+    /// Whether a file has changed since the last call or since the beginning; one that is being replaced, once it is
+    /// there.
     bool changed();
 
 private:

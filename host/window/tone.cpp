@@ -12,7 +12,8 @@ namespace {
 class SrgbTable {
 public:
     SrgbTable() {
-        for (uint high = 0; high < firsts.size(); high++) firsts[high] = static_cast<unsigned char>(encodeSrgb(std::bit_cast<float>(high << 16)));
+        for (uint high = 0; high < firsts.size(); high++)
+            firsts[high] = static_cast<unsigned char>(encodeSrgb(std::bit_cast<float>(high << 16)));
         for (uint byte = 1; byte < 256; byte++) least[byte] = firstThatGives(byte);
     }
 

@@ -78,7 +78,8 @@ View focus(View view, vec3 point) {
 
 vec3 pointAt(const View& view, uvec2 size, dvec2 place, double depth) {
     const Camera camera = pinholeCamera(view, size);
-    const dvec3 direction = dvec3(camera.forward) + (2 * place.x - 1) * dvec3(camera.right) + (1 - 2 * place.y) * dvec3(camera.up);
+    const dvec3 direction =
+        dvec3(camera.forward) + (2 * place.x - 1) * dvec3(camera.right) + (1 - 2 * place.y) * dvec3(camera.up);
     return vec3(dvec3(camera.origin) + depth / view.coordinates.unit * direction);
 }
 
@@ -87,7 +88,8 @@ std::optional<Seen> seenAt(const View& view, uvec2 size, vec3 point) {
     const dvec3 line = dvec3(point) - dvec3(camera.origin), right(camera.right), up(camera.up);
     const double depth = glm::dot(line, dvec3(camera.forward));
     if (!(depth > 0)) return {};
-    const dvec2 across = dvec2(glm::dot(line, right) / glm::dot(right, right), glm::dot(line, up) / glm::dot(up, up)) / depth;
+    const dvec2 across =
+        dvec2(glm::dot(line, right) / glm::dot(right, right), glm::dot(line, up) / glm::dot(up, up)) / depth;
     return Seen{dvec2(0.5) + dvec2(0.5, -0.5) * across, depth * view.coordinates.unit};
 }
 

@@ -20,7 +20,8 @@ View fly(View view, dvec3 distances);
 /// Makes a point the target, and with it the centre of orbits.
 View focus(View view, vec3 point);
 
-/// The point at a depth (world units) along the camera's axis that a place of the film sees; places are in [0, 1]^2, y down.
+/// The point at a depth (world units) along the camera's axis that a place of the film sees; places are in [0, 1]^2, y
+/// down.
 vec3 pointAt(const View& view, uvec2 size, dvec2 place, double depth);
 
 /// Where on the film a point is seen, and its depth, world units; nothing if it is behind the eye.

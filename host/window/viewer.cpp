@@ -15,7 +15,8 @@ const double idleSeconds = 0.25;  // at most between turns
 
 } // namespace
 
-Viewer::Viewer(const RenderOptions& options, Window& shownIn, RenderThread& renders, EventLog& events, Clock::time_point begun)
+Viewer::Viewer(const RenderOptions& options, Window& shownIn, RenderThread& renders, EventLog& events,
+               Clock::time_point begun)
     : commandLine(options), window(shownIn), thread(renders), log(events), start(begun), sceneWatch(options.scene) {
     choices.options = options;
     state = thread.state();
@@ -76,8 +77,12 @@ void Viewer::act(Action action) {
         choices.paused = !choices.paused;
         thread.wish([&](Wishes& w) { w.paused = choices.paused; });
         break;
-    case Action::togglePanel: panel = !panel; break;
-    case Action::save: thread.wish([](Wishes& w) { w.saves++; }); break;
+    case Action::togglePanel:
+        panel = !panel;
+        break;
+    case Action::save:
+        thread.wish([](Wishes& w) { w.saves++; });
+        break;
     case Action::reset:
         view.reset();
         thread.wish([](Wishes& w) { w.view.reset(), w.moving = false; });
@@ -86,21 +91,39 @@ void Viewer::act(Action action) {
         window.copy(cameraJson(viewNow()));
         about = "the camera is copied";
         break;
-    case Action::togglePhotons: choices.photons = !choices.photons; break;
-    case Action::toggleFollow: choices.follows = !choices.follows; break;
-    case Action::nextCurve: choices.tone.curve = ToneCurve((int(choices.tone.curve) + 1) % int(toneCurveNames.size())); break;
-    case Action::brighter: choices.tone.exposure += 0.25f; break;
-    case Action::darker: choices.tone.exposure -= 0.25f; break;
-    case Action::usualExposure: choices.tone.exposure = state.settings.exposure; break;
-    case Action::usualSettings: choices.options = commandLine; break;
-    case Action::quit: window.close(); break;
-    case Action::none: break;
+    case Action::togglePhotons:
+        choices.photons = !choices.photons;
+        break;
+    case Action::toggleFollow:
+        choices.follows = !choices.follows;
+        break;
+    case Action::nextCurve:
+        choices.tone.curve = ToneCurve((int(choices.tone.curve) + 1) % int(toneCurveNames.size()));
+        break;
+    case Action::brighter:
+        choices.tone.exposure += 0.25f;
+        break;
+    case Action::darker:
+        choices.tone.exposure -= 0.25f;
+        break;
+    case Action::usualExposure:
+        choices.tone.exposure = state.settings.exposure;
+        break;
+    case Action::usualSettings:
+        choices.options = commandLine;
+        break;
+    case Action::quit:
+        window.close();
+        break;
+    case Action::none:
+        break;
     }
 }
 
 /// The point that is seen at a place of the film becomes the target.
 void Viewer::focusAt(dvec2 place) {
-    if (!picture || glm::any(glm::lessThan(place, dvec2(0))) || glm::any(glm::greaterThanEqual(place, dvec2(1)))) return;
+    if (!picture || glm::any(glm::lessThan(place, dvec2(0))) || glm::any(glm::greaterThanEqual(place, dvec2(1))))
+        return;
     const uvec2 pixel(place * dvec2(picture->size));
     const Sample& sample = picture->pixels[std::size_t(pixel.y) * picture->size.x + pixel.x].mean;
     if (!(sample.covered > 0)) return;
@@ -125,7 +148,10 @@ void Viewer::moveOrRest() {
 void Viewer::endMotion() {
     if (motionFrames < 2) return;
     const double seconds = std::chrono::duration<double>(lastMove - motionStart).count();
-    if (seconds > 0) log.write("moved", {{"seconds", seconds}, {"frames", motionFrames}, {"width", picture->size.x}, {"height", picture->size.y}});
+    if (seconds > 0)
+        log.write(
+            "moved",
+            {{"seconds", seconds}, {"frames", motionFrames}, {"width", picture->size.x}, {"height", picture->size.y}});
     motionFrames = 0;
 }
 
@@ -139,13 +165,16 @@ void Viewer::followWindow() {
     RenderOptions options = choices.options;
     options.size = commandLine.size;
     const int width = int(lastSize.x) - (panel ? panelWidth(window.scale()) : 0), height = int(lastSize.y);
-    if (choices.follows && width > 0 && height > 0) options.size = secondsSince(lastResize) > settleSeconds ? uvec2(width, height) : thread.wishes().options.size;
+    if (choices.follows && width > 0 && height > 0)
+        options.size = secondsSince(lastResize) > settleSeconds ? uvec2(width, height) : thread.wishes().options.size;
     const auto facts = [](const RenderOptions& o) {
         const Settings s = o.over({});
-        return std::tuple(s.size, s.photons, s.causticPhotons, s.gatherRays, s.radius, s.causticRadius, s.alpha, s.kernel);
+        return std::tuple(s.size, s.photons, s.causticPhotons, s.gatherRays, s.radius, s.causticRadius, s.alpha,
+                          s.kernel);
     };
     const RenderOptions& wished = thread.wishes().options;
-    if (facts(options) != facts(wished) || options.size.has_value() != wished.size.has_value()) thread.wish([&](Wishes& w) { w.options = options; });
+    if (facts(options) != facts(wished) || options.size.has_value() != wished.size.has_value())
+        thread.wish([&](Wishes& w) { w.options = options; });
     if (choices.photons != thread.wishes().photons) thread.wish([&](Wishes& w) { w.photons = choices.photons; });
 }
 
@@ -172,7 +201,8 @@ void Viewer::takePicture() {
     window.setPicture(picture->size, std::move(print->rgba8));
 }
 
-/// The picture beside the panel, as large as there is room, in the middle; of its own size if that is the room but for a bit.
+/// The picture beside the panel, as large as there is room, in the middle; of its own size if that is the room but for
+/// a bit.
 Rectangle Viewer::place() const {
     const ivec2 window_(window.size());
     const ivec2 room{window_.x - (panel ? panelWidth(window.scale()) : 0), window_.y};
@@ -190,7 +220,8 @@ void Viewer::draw() {
     const Tone before = choices.tone;
     const bool drawn = window.draw(where, [&] {
         if (choices.photons && picture) drawPhotons(*picture, where, window.scale());
-        if (panel) drawPanel({state, picture.get(), draftsPerSecond(), about, window.scale(), ivec2(window.size())}, choices);
+        if (panel)
+            drawPanel({state, picture.get(), draftsPerSecond(), about, window.scale(), ivec2(window.size())}, choices);
     });
     if (!drawn) settling = std::max(settling, 1u);
     if (choices.tone != before || !choices.actions.empty()) settling = 2;
@@ -199,7 +230,9 @@ void Viewer::draw() {
     if (wanted != title) window.setTitle(title = wanted);
 }
 
-double Viewer::draftsPerSecond() const { return moving && motionFrames > 2 ? motionFrames / secondsSince(motionStart) : 0; }
+double Viewer::draftsPerSecond() const {
+    return moving && motionFrames > 2 ? motionFrames / secondsSince(motionStart) : 0;
+}
 
 /// What was seen first, and when.
 void Viewer::logFirst() {
@@ -210,7 +243,9 @@ void Viewer::logFirst() {
 
 void Viewer::logOpening() {
     opened = true;
-    log.write("window", {{"start", secondsSince(start)}, {"size", {window.size().x, window.size().y}}, {"panel", panelWidth(window.scale())}});
+    log.write("window", {{"start", secondsSince(start)},
+                         {"size", {window.size().x, window.size().y}},
+                         {"panel", panelWidth(window.scale())}});
 }
 
 } // namespace vkpm

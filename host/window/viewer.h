@@ -48,7 +48,7 @@ private:
     std::shared_ptr<const Picture> asked; // for a print
     std::optional<Tone> askedTone;
     Developer developer{Window::wake};
-    std::optional<View> view;      // absent: the scene's
+    std::optional<View> view; // absent: the scene's
     bool panel = true;
     std::string about;
     std::string title;
@@ -57,12 +57,12 @@ private:
     Clock::time_point lastMove{};
     Clock::time_point lastFrame = Clock::now();
     Clock::time_point motionStart{};
-    uint motionFrames = 0;         // drafts shown
+    uint motionFrames = 0; // drafts shown
     Clock::time_point lastWatch = Clock::now();
     uvec2 lastSize{0};
     Clock::time_point lastResize{};
-    uint settling = 0;             // frames to draw without an event, for ImGui to come to rest
-    double longestWait = 0;        // seconds that an event may have waited
+    uint settling = 0;      // frames to draw without an event, for ImGui to come to rest
+    double longestWait = 0; // seconds that an event may have waited
     bool opened = false, drafted = false, passSeen = false; // as the log has it
 };
 

@@ -16,7 +16,8 @@ namespace {
 
 std::string lastProblem; // as GLFW told it
 
-const char* const fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"; // ImGui's own font is not made for dense displays
+const char* const fontFile =
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"; // ImGui's own font is not made for dense displays
 const float fontSize = 14;
 const int maxLosses = 3;
 
@@ -39,7 +40,8 @@ int onLoss(void*) {
 void listenForLoss() {
     using Handler = int (*)(void*);
     void* xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
-    if (void* set = xlib ? dlsym(xlib, "XSetIOErrorHandler") : nullptr) reinterpret_cast<Handler (*)(Handler)>(set)(onLoss);
+    if (void* set = xlib ? dlsym(xlib, "XSetIOErrorHandler") : nullptr)
+        reinterpret_cast<Handler (*)(Handler)>(set)(onLoss);
 }
 
 } // namespace
@@ -196,7 +198,9 @@ bool Window::draw(const Rectangle& where, const std::function<void()>& interface
         losses = 0;
         return true;
     } catch (const vk::DeviceLostError& lost) {
-        if (++losses > maxLosses) throw GpuError(fmt::format("drawing the window failed: {}; another program may have hung or reset the device", lost.what()));
+        if (++losses > maxLosses)
+            throw GpuError(fmt::format(
+                "drawing the window failed: {}; another program may have hung or reset the device", lost.what()));
         openPresenter();
         return false;
     }

@@ -11,14 +11,15 @@ struct GLFWwindow;
 
 namespace vkpm {
 
-/// What came from keyboard or mouse, in the order in which it came. Keys, buttons, modifiers and actions are GLFW's numbers.
+/// What came from keyboard or mouse, in the order in which it came. Keys, buttons, modifiers and actions are GLFW's
+/// numbers.
 struct Event {
     enum class Kind { key, button, move, scroll } kind;
-    int code = 0;        // key or button
-    int action = 0;      // pressed, repeated, released
+    int code = 0;   // key or button
+    int action = 0; // pressed, repeated, released
     int modifiers = 0;
-    dvec2 position{0};   // of the pointer, in pixels of the window
-    double scroll = 0;   // steps, up is positive
+    dvec2 position{0}; // of the pointer, in pixels of the window
+    double scroll = 0; // steps, up is positive
 };
 
 class Window {
@@ -29,7 +30,8 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What is to be done when the display goes and takes the program with it (exit code 1): to save. It is called once, and may not draw.
+    /// What is to be done when the display goes and takes the program with it (exit code 1): to save. It is called
+    /// once, and may not draw.
     static void onDisplayLoss(std::function<void()> save);
     /// Appears, with room for so many of its pixels at a usual resolution. Throws GpuError.
     void open(const std::string& title, uvec2 size);
@@ -53,8 +55,8 @@ public:
     void copy(const std::string& text); // to the clipboard
     /// The picture of the next frames.
     void setPicture(uvec2 size, std::vector<uint> rgba8);
-    /// Draws a frame: the picture in a rectangle, and what `interface` makes with ImGui. False if it has to be drawn again, since the
-    /// display was not ready.
+    /// Draws a frame: the picture in a rectangle, and what `interface` makes with ImGui. False if it has to be drawn
+    /// again, since the display was not ready.
     bool draw(const Rectangle& where, const std::function<void()>& interface);
 
 private:

@@ -4,4 +4,5 @@
 #include "../map.glsl"
 #include "grid.glsl"
 
-MAP(vec3, uint, cellKey(cellOf(x, args.photons.cellsPerUnit, args.photons.levels), args.photons.levels) & args.photons.cellMask)
+MAP(vec3, uint,
+    cellKey(cellOf(x, args.photons.cellsPerUnit, args.photons.levels), args.photons.levels) & args.photons.cellMask)

@@ -1,8 +1,8 @@
 // Warps the numbers of starts by a guide.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common.glsl"
 #include "../map_args.h"
+#include "common.glsl"
 #include "guide.glsl"
 #include "shared_photons.h"
 

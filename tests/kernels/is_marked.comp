@@ -1,8 +1,8 @@
 // Whether places are among the marked ones.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "common.glsl"
 #include "../map_args.h"
+#include "common.glsl"
 #include "visible_cells.glsl"
 
 ARGS(IsMarkedArgs)

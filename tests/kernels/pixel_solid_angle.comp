@@ -4,4 +4,5 @@
 #include "../map.glsl"
 #include "camera.glsl"
 
-MAP(CameraCase, float, pixelSolidAngle(x.camera, uvec2(40u, 20u), dot(cameraDirection(x.camera, x.film), x.camera.forward)))
+MAP(CameraCase, float,
+    pixelSolidAngle(x.camera, uvec2(40u, 20u), dot(cameraDirection(x.camera, x.film), x.camera.forward)))

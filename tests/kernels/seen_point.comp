@@ -5,6 +5,8 @@
 #include "light_sampling.glsl"
 #include "shared_scene.h"
 
-SeenValues values(LightSample p) { return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.inversePdf); }
+SeenValues values(LightSample p) {
+    return SeenValues(p.point.position, p.point.magnitude, p.point.normal, p.inversePdf);
+}
 
 MAP(VectorPair, SeenValues, values(sampleLight(LightPtr(args.scene.at[0].lights).at[0], x.a, x.b.xy)))
