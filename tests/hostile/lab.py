@@ -131,8 +131,9 @@ class Lab:
         return name
 
     def truth(self, scene: Scene, *options: str) -> Truth:
-        """Means of a render that others are judged by: those in TRUTHS of this scene, its meshes and these options. One of
-        sixteen, by the number VKPM_DRAW_SEED, is rendered anew, and held against them."""
+        """Means of a render that others are judged by: those in TRUTHS of this scene, its meshes and these options.
+
+        One of sixteen, by the number VKPM_DRAW_SEED, is rendered anew, and held against them."""
         meshes = [self.meshes.get(shape.get("file"), "") for shape in scene["shapes"]]
         key = hashlib.sha256(repr((json.dumps(scene), options, meshes)).encode()).hexdigest()[:16]
         drawn = (int(key, 16) + int(os.environ.get("VKPM_DRAW_SEED", "1"))) % 16 == 0
