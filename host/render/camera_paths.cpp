@@ -26,7 +26,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
     }
     if (asksMaps(features)) {
         queries = Buffer<Query>(gpu, "camera queries", size);
-        gather.emplace(gpu, settings.showPoints ? "show_points" : "gather", features);
+        gather.emplace(gpu, settings.showPoints ? "show_photons" : "gather", features);
     }
     if (settings.integrator == INTEGRATOR_PHOTON && shadow) {
         splits = Buffer<Split>(gpu, "camera splits", size);
