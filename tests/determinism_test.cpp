@@ -36,7 +36,8 @@ TEST_F(Determinism, DriverThreadsAndLanesDoNotMatter) {
     for (const std::string integrator : {"photon", "light"}) {
         const Image plain = renderWith(integrator, "");
         expectSameBits(renderWith(integrator, ""), plain, integrator + ", another run");
-        if (plain.attributes.at("device").find("llvmpipe") == std::string::npos) continue; // others have no such variables
+        if (plain.attributes.at("device").find("llvmpipe") == std::string::npos)
+            continue; // others have no such variables
         for (const int threads : {1, 2, 3})
             expectSameBits(renderWith(integrator, fmt::format("LP_NUM_THREADS={}", threads)), plain,
                            fmt::format("{}, {} threads", integrator, threads));

@@ -51,7 +51,7 @@ void expectAsIfNew(const Scene& scene) {
         Renderer renderer(testGpu(), scene, settings);
         passesOf(renderer);
         for (const uvec2 pixels : {size, uvec2(24, 48), size}) {
-            renderer.look(elsewhere(scene), pixels);
+            renderer.setView(elsewhere(scene), pixels);
             EXPECT_EQ(renderer.film.passCount(), 0u);
             expectSame(passesOf(renderer), anew(scene, elsewhere(scene), settings, pixels));
         }
@@ -68,7 +68,7 @@ TEST(Look, GuidesFollowTheView) {
     const Settings settings = settingsFor(near, INTEGRATOR_PHOTON);
     Renderer renderer(testGpu(), near, settings);
     for (const Scene* scene : {&near, &far, &near}) {
-        renderer.look(scene->view, size);
+        renderer.setView(scene->view, size);
         expectSame(passesOf(renderer), anew(near, scene->view, settings, size));
         EXPECT_EQ(renderer.features().hasGuide, scene == &near);
     }
@@ -90,7 +90,7 @@ void expectAsIfNewAfterCancelled(const Scene& scene) {
             cancel = true;
         });
         uint pass = 0;
-        renderer.look(scene.view, size);
+        renderer.setView(scene.view, size);
         try {
             for (; pass < passes; pass++) renderer.renderPass(pass);
         } catch (const Cancelled&) {
@@ -101,7 +101,7 @@ void expectAsIfNewAfterCancelled(const Scene& scene) {
         if (run % 4 < 2) {
             expectSame(passesOf(renderer, pass, passes), anew(scene, scene.view, settings, size, passes));
         } else {
-            renderer.look(elsewhere(scene), size);
+            renderer.setView(elsewhere(scene), size);
             expectSame(passesOf(renderer), anew(scene, elsewhere(scene), settings, size));
         }
     }

@@ -18,11 +18,11 @@ const uint minPassesForError = 8; // batches of two sizes, see render/noise.h
 
 PhotonCounts countsOf(const PhotonLedger& l) { return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost}; }
 
-std::optional<GatherRadii> radiiOf(const std::optional<MapStages>& stages, bool given, double unit) {
-    if (!stages) return {};
+std::optional<GatherRadii> radiiOf(const std::optional<PhotonMapStage>& map, bool given, double unit) {
+    if (!map) return {};
     const auto inWorld = [&](float radius) { return static_cast<float>(unit * double{radius}); };
-    const float greatest = stages->field ? stages->radius * std::exp2(stages->field->greatest) : stages->radius;
-    return GatherRadii{inWorld(stages->smallestRadius()), inWorld(stages->medianRadius()), inWorld(greatest), given};
+    return GatherRadii{inWorld(map->smallestRadius()), inWorld(map->medianRadius()), inWorld(map->greatestRadius()),
+                       given};
 }
 
 /// "hasGlass: the scene has no glass", a line for each feature that the render needs, or does without.
@@ -172,7 +172,7 @@ void RenderJob::begin() {
 }
 
 void RenderJob::restart() {
-    renderer.look(scene.view, settings.size);
+    renderer.setView(scene.view, settings.size);
     identity = identityOf(scene, settings);
     restored = savedPasses = 0;
     earlierSeconds = reporting = 0;
@@ -282,15 +282,15 @@ void RenderJob::warnOfDarkness() {
 }
 
 void RenderJob::warnOfBlur() {
-    const std::optional<MapStages>& stages = renderer.causticMap();
-    if (!stages || !stages->roundingBinds) return;
+    const std::optional<PhotonMapStage>& map = renderer.causticMap();
+    if (!map || !map->roundingBinds()) return;
     const auto inWorld = [&](double length) { return scene.coordinates.unit * length; };
     const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
     tell(fmt::format(
         "caustics are blurred by discs of {:.3g} at least, though photons are dense enough for narrower ones: "
         "coordinates reach {:.3g} from the middle of "
         "the scene, with the digits of 32-bit floats; leave out what lies far from the caustics, or move it nearer",
-        inWorld(stages->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
+        inWorld(map->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
 }
 
 bool RenderJob::finish() {

@@ -7,12 +7,12 @@
 namespace vkpm {
 
 /// Layers of a picture that may be asked for, bit by bit; the first are those of LAYER_EMISSION and so on.
-const std::array layerNames{"emission", "direct", "specular", "caustic", "indirect",
-                            "albedo",   "normal", "depth",    "noise",   "bias"};
+inline constexpr std::array layerNames{"emission", "direct", "specular", "caustic", "indirect",
+                                       "albedo",   "normal", "depth",    "noise",   "bias"};
 const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8, ASK_BIAS = 9;
 /// Of INTEGRATOR_PHOTON and so on, and of DENSITY_KERNEL_CONSTANT and so on, by number.
-const std::array integratorNames{"photon", "path", "direct", "photon-map", "light"};
-const std::array kernelNames{"constant", "cone", "gauss", "epanechnikov"};
+inline constexpr std::array integratorNames{"photon", "path", "direct", "photon-map", "light"};
+inline constexpr std::array kernelNames{"constant", "cone", "gauss", "epanechnikov"};
 const uint maxGatherRays = 1024;
 const uint allLayers = (1u << layerNames.size()) - 1;
 

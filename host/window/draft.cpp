@@ -39,7 +39,7 @@ void Draft::adapt(double seconds) {
 Picture Draft::render(const View& view, uvec2 film) {
     const auto start = std::chrono::steady_clock::now();
     const uvec2 size = sizeFor(film);
-    renderer.look(view, size);
+    renderer.setView(view, size);
     renderer.renderPass(0);
     Picture picture{.pixels = renderer.film.download(), .size = size, .view = view, .passes = 1, .draft = true};
     adapt(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -9,7 +9,7 @@ namespace {
 
 const std::size_t maxPoints = 20'000; // photons shown, of each map
 
-void addPoints(const std::optional<MapStages>& map, std::vector<PhotonPoint>& points) {
+void addPoints(const std::optional<PhotonMapStage>& map, std::vector<PhotonPoint>& points) {
     if (!map) return;
     const std::size_t count = std::min<std::size_t>(map->tracing.arrived(), maxPoints);
     for (const Photon& photon : map->tracing.photons.download(count)) points.push_back({photon.position, photon.color});
