@@ -1,6 +1,5 @@
-// Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays; needs
-// sampling.glsl, directions.glsl and light.glsl. Where a light is near, its points per area bring very unequal amounts:
-// 1 / distance^2 has no bound.
+// Points of lights as seen from a place, uniform over the solid angle that the light fills where that pays. Where a
+// light is near, its points per area bring very unequal amounts: 1 / distance^2 has no bound.
 #ifndef LIGHT_SAMPLING_GLSL
 #define LIGHT_SAMPLING_GLSL
 #include "common.glsl"

@@ -26,15 +26,6 @@ const float partForNarrow = 0.1f;
 // with no others.
 const uint narrowLevels = 3, narrowBlockBits = 11;
 
-/// Compiles kernels while the host goes on, as long as it is there.
-struct CompilingAhead {
-    explicit CompilingAhead(Gpu& device) : gpu(device) { gpu.compilesAhead = true; }
-    ~CompilingAhead() { gpu.compilesAhead = false; }
-    CompilingAhead(const CompilingAhead&) = delete;
-    CompilingAhead& operator=(const CompilingAhead&) = delete;
-    Gpu& gpu;
-};
-
 static uint countOf(const Settings& settings, MapKind kind) {
     return kind == MapKind::global ? settings.photons : settings.causticPhotons;
 }
@@ -50,7 +41,6 @@ PhotonMapStage::PhotonMapStage(Gpu& device, const UploadedScene& scene, const Ex
       settings(set), extent(sceneExtent), grid(device, which == MapKind::global ? "global map" : "caustic map"),
       flux(allFlux / float(countOf(set, which))), radius(radiusOf(set, which, extent.unit).value_or(0.0f)),
       radiusIsAutomatic(!radiusOf(set, which, extent.unit)) {
-    const CompilingAhead compiling(gpu);
     if (radiusIsAutomatic) measureRadii();
     else
         checkRadius(kind == MapKind::global ? "--radius or /settings/radius"

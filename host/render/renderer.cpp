@@ -24,9 +24,19 @@ Features Renderer::features() const {
     return has;
 }
 
+/// Compiles kernels while the host goes on, as long as it is there.
+struct CompilingAhead {
+    explicit CompilingAhead(Gpu& device) : gpu(device) { gpu.compilesAhead = true; }
+    ~CompilingAhead() { gpu.compilesAhead = false; }
+    CompilingAhead(const CompilingAhead&) = delete;
+    CompilingAhead& operator=(const CompilingAhead&) = delete;
+    Gpu& gpu;
+};
+
 /// A map with its radii, if the scene has use for it.
 std::optional<PhotonMapStage> Renderer::construct(MapKind kind, const Extent& extent) {
     if (!(kind == MapKind::global ? sceneHas.hasGlobalMap : sceneHas.hasCausticMap)) return {};
+    const CompilingAhead compiling(gpu); // the kernels of the map, too
     return std::optional<PhotonMapStage>(std::in_place, gpu, scene, extent, settings, sceneHas, kind, flux,
                                          batches.photons);
 }
