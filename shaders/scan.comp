@@ -1,4 +1,5 @@
-// Exclusive prefix sum of an array by one work group, with the total behind it.
+// Exclusive prefix sum of an array by one work group, with the total behind it; the sum of earlier arrays may go
+// before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -17,15 +18,17 @@ void main() {
     uint sum = 0u;
     for (uint i = first; i < last; i++) sum += args.values.at[i];
     totals[gl_LocalInvocationIndex] = sum;
+    uint before = args.before != uvec2(0u) ? uintPtr(args.before).at[0] : 0u;
     barrier();
 
     // What lies before the part, then the sums within it.
-    uint before = 0u;
     for (uint i = 0u; i < gl_LocalInvocationIndex; i++) before += totals[i];
     for (uint i = first; i < last; i++) {
         uint value = args.values.at[i];
         args.values.at[i] = before;
         before += value;
     }
-    if (gl_LocalInvocationIndex == GROUP - 1u) args.values.at[count] = before;
+    if (gl_LocalInvocationIndex < GROUP - 1u) return;
+    args.values.at[count] = before;
+    if (args.before != uvec2(0u)) uintPtr(args.before).at[0] = before;
 }

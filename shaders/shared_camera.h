@@ -40,6 +40,26 @@ struct Split {
 };
 BUFFER(Split)
 
+/// What the paths of a pass have in common.
+struct CameraPass {
+    ADDRESS(PhotonMap) maps; // of narrow discs, the narrowest first; that of caustics; the global one
+    uint narrow;             // how many of narrow discs there are
+    uint seed;
+    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
+    float nearDistance; // a gather ray shorter than this goes on
+    float pixelAngle;   // width of a pixel over its distance
+    uint integrator;    // INTEGRATOR_...
+};
+BUFFER(CameraPass)
+
+/// What the host hears of the paths that were taken to their ends, see finish_paths.comp.
+struct CameraStatus {
+    uint unfinished; // paths that go on after FINISH_BOUNCES
+    uint paths;      // rays
+    uint shadowRays;
+};
+BUFFER(CameraStatus)
+
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
@@ -58,6 +78,7 @@ struct EyeArgs {
 
 struct ShadeArgs {
     PTR(DeviceScene) scene;
+    PTR(CameraPass) pass;
     PTR(Path) paths;
     PTR(Hit) hits;
     PTR(float) samples; // [column][stride]
@@ -67,16 +88,12 @@ struct ShadeArgs {
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
+    PTR(CameraStatus) status;
     uint stride;
     uint firstPixel;
     uint sequence; // SAMPLES_...
     uint index;    // of the sample in its sequence
-    uint seed;
     uint bounce;
-    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
-    float nearDistance; // a gather ray shorter than this goes on
-    float pixelAngle;   // width of a pixel over its distance
-    uint integrator;    // INTEGRATOR_...
 };
 
 struct SplitArgs {

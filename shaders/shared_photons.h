@@ -89,8 +89,8 @@ struct StorePhotonsArgs {
     PTR(uint) offsets; // of the batch's paths
     PTR(Photon) photons;
     PTR(Status) status;
-    uint first; // place of the batch's first photon
-    uint count; // of deposits
+    uint depositCapacity;
+    uint photonCapacity;
 };
 
 /// Photons in the order of their cells' keys, where each key starts, and how far to gather.
@@ -109,6 +109,7 @@ struct PhotonMap {
     uint kernel;        // KERNEL_...
     uint nearest;       // the radius is the distance of the k-th nearest; 0: not so
 };
+BUFFER(PhotonMap)
 
 #ifdef __cplusplus
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");

@@ -9,6 +9,7 @@ SHARED_BEGIN
 struct ScanArgs {
     PTR(uint) values; // becomes its exclusive prefix sum, with the total behind it
     PTR(Queue) queue;
+    ADDRESS(uint) before; // a sum to begin with, which becomes the total; 0: none
     uint kinds;
     uint blockSize; // values per kind: the queue's count over this, rounded up
 };

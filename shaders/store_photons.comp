@@ -1,4 +1,4 @@
-// Puts the photons of a batch into the map's order, whatever order they arrived in.
+// Puts the photons of a batch into the map's order, whatever order they arrived in; those for which there is room.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -9,12 +9,14 @@ ARGS(StorePhotonsArgs)
 
 void main() {
     uint i = threadIndex();
-    if (i >= args.count) return;
+    if (i >= min(args.status.at[0].deposits, args.depositCapacity)) return;
     PhotonDeposit deposit = args.deposits.at[i];
+    uint place = args.offsets.at[deposit.slot] + deposit.index;
+    if (place >= args.photonCapacity) return;
     Photon photon = deposit.photon;
     if (!isFinite(photon.color) || !isFinite(photon.position)) {
         atomicAdd(args.status.at[0].nonfinite[NONFINITE_PHOTON], 1u);
         photon.color = vec3(0.0);
     }
-    args.photons.at[args.first + args.offsets.at[deposit.slot] + deposit.index] = photon;
+    args.photons.at[place] = photon;
 }

@@ -1,10 +1,14 @@
 /// Device memory: allocation, and copies to and from the host.
 #include "gpu/buffer.h"
 #include "gpu/buffer_handles.h"
+#include "gpu/host_memory.h"
 #include "gpu/process_limits.h"
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <fmt/format.h>
+#include <functional>
+#include <initializer_list>
 #include <mutex>
 #include <utility>
 
@@ -37,8 +41,9 @@ static std::string refusal(const Gpu& gpu, const std::string& name, std::uint64_
                        double(bytes) / 1048576, name, double(usedBytes(gpu)) / 1048576, cause);
 }
 
+/// Allocates memory of the first kind that the device has.
 static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_t bytes,
-                           vk::MemoryPropertyFlags wanted) {
+                           std::initializer_list<vk::MemoryPropertyFlags> kinds) {
     const auto& device = gpu.handles->device;
     if (usedBytes(gpu) + bytes > gpu.handles->freeBytes)
         throw OutOfMemory(refusal(
@@ -60,7 +65,9 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
                                          .usage = Usage::eStorageBuffer | Usage::eShaderDeviceAddress |
                                                   Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst});
         const auto needs = result.buffer.getMemoryRequirements();
-        const int type = findMemoryType(gpu.handles->physical, needs.memoryTypeBits, wanted);
+        int type = -1;
+        for (const vk::MemoryPropertyFlags wanted : kinds)
+            if (type < 0) type = findMemoryType(gpu.handles->physical, needs.memoryTypeBits, wanted);
         if (type < 0) throw GpuError(fmt::format("no memory type of the device fits buffer '{}'", name));
         const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
         result.memory =
@@ -81,7 +88,7 @@ RawBuffer::RawBuffer(Gpu& gpu, std::string name, std::uint64_t size, std::uint64
     const bool maps = gpu.handles->mapsDeviceMemory;
     const auto wanted =
         maps ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags(Property::eDeviceLocal);
-    Allocation allocation = allocate(gpu, name, bytes + slack, wanted);
+    Allocation allocation = allocate(gpu, name, bytes + slack, {wanted});
     handles = std::make_unique<Handles>(gpu, std::move(name), std::move(allocation.memory),
                                         std::move(allocation.buffer), nullptr, bytes);
     address = gpu.handles->device.getBufferAddress({.buffer = *handles->buffer});
@@ -105,34 +112,73 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
 
 RawBuffer::~RawBuffer() = default;
 
-// Copies between the buffer and a staging buffer that the host sees; one thread at a time.
-static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset,
-                  const std::function<void(void*)>& before, const std::function<void(const void*)>& after) {
+HostMemory::HostMemory(const Gpu& gpu, const std::string& name, std::uint64_t size) : bytes(size) {
+    const vk::MemoryPropertyFlags visible = Property::eHostVisible | Property::eHostCoherent;
+    Allocation allocation = allocate(gpu, name, bytes, {visible | Property::eHostCached, visible});
+    memory = std::move(allocation.memory);
+    buffer = std::move(allocation.buffer);
+    mapped = static_cast<char*>(
+        attempt("mapping memory for '" + name + "'", "", [&] { return memory.mapMemory(0, VK_WHOLE_SIZE); }));
+}
+
+const std::uint64_t stagingBytes = 16u << 20;
+
+// Copies between the buffer and the host in pieces of the staging memory, which `use` fills or reads; one thread at a
+// time.
+static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset, bool toDevice,
+                  const std::function<void(char* staged, std::uint64_t done, std::uint64_t size)>& use) {
     static std::mutex one;
     const std::lock_guard lock(one);
-    handles.gpu.times["staging"].dispatches++;
-    const Allocation staging =
-        allocate(handles.gpu, "staging", bytes, Property::eHostVisible | Property::eHostCoherent);
-    void* mapped = staging.memory.mapMemory(0, VK_WHOLE_SIZE);
-    if (before) before(mapped);
-    handles.gpu.handles->execute([&](const vk::raii::CommandBuffer& commands) {
-        if (before)
-            commands.copyBuffer(*staging.buffer, *handles.buffer, vk::BufferCopy{.dstOffset = offset, .size = bytes});
-        else commands.copyBuffer(*handles.buffer, *staging.buffer, vk::BufferCopy{.srcOffset = offset, .size = bytes});
-    });
-    if (after) after(mapped);
+    Gpu& gpu = handles.gpu;
+    if (!gpu.handles->staging || gpu.handles->staging->bytes < std::min(bytes, stagingBytes))
+        gpu.handles->staging = std::make_unique<HostMemory>(
+            gpu, "staging", std::min(std::max<std::uint64_t>(std::bit_ceil(bytes), 1u << 16), stagingBytes));
+    const HostMemory& staging = *gpu.handles->staging;
+    const vk::raii::Fence fence(gpu.handles->device, vk::FenceCreateInfo{});
+    for (std::uint64_t done = 0; done < bytes; done += staging.bytes) {
+        const std::uint64_t size = std::min(staging.bytes, bytes - done);
+        if (toDevice) use(staging.mapped, done, size);
+        const vk::raii::CommandBuffer commands = gpu.handles->begin();
+        if (toDevice)
+            commands.copyBuffer(*staging.buffer, *handles.buffer,
+                                vk::BufferCopy{.dstOffset = offset + done, .size = size});
+        else
+            commands.copyBuffer(*handles.buffer, *staging.buffer,
+                                vk::BufferCopy{.srcOffset = offset + done, .size = size});
+        const vk::MemoryBarrier2 after{
+            .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+            .dstStageMask = vk::PipelineStageFlagBits2::eHost | vk::PipelineStageFlagBits2::eAllCommands,
+            .dstAccessMask =
+                vk::AccessFlagBits2::eHostRead | vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+        commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &after});
+        commands.end();
+        gpu.handles->submit(commands, *fence);
+        gpu.handles->wait(fence);
+        gpu.handles->device.resetFences(*fence);
+        gpu.waits++;
+        gpu.times["staging"].dispatches++;
+        if (!toDevice) use(staging.mapped, done, size);
+    }
 }
 
 void RawBuffer::write(const void* data, std::uint64_t size, std::uint64_t offset) {
     if (size == 0) return;
+    const char* from = static_cast<const char*>(data);
     if (handles->mapped) std::memcpy(static_cast<char*>(handles->mapped) + offset, data, size);
-    else stage(*handles, size, offset, [&](void* mapped) { std::memcpy(mapped, data, size); }, {});
+    else
+        stage(*handles, size, offset, true,
+              [&](char* staged, std::uint64_t done, std::uint64_t part) { std::memcpy(staged, from + done, part); });
 }
 
 void RawBuffer::read(void* data, std::uint64_t size, std::uint64_t offset) const {
     if (size == 0) return;
+    char* to = static_cast<char*>(data);
     if (handles->mapped) std::memcpy(data, static_cast<const char*>(handles->mapped) + offset, size);
-    else stage(*handles, size, offset, {}, [&](const void* mapped) { std::memcpy(data, mapped, size); });
+    else
+        stage(*handles, size, offset, false, [&](const char* staged, std::uint64_t done, std::uint64_t part) {
+            std::memcpy(to + done, staged, part);
+        });
 }
 
 } // namespace vkpm

@@ -1,16 +1,24 @@
 /// Choice of a device, and its one compute queue.
 #include "gpu/handles.h"
+#include "gpu/recording_part.h"
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 
 namespace vkpm {
 
+/// A queue family that computes; better one that does not draw, since what draws the desktop has to share that. -1 if
+/// there is none.
 static int computeFamily(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
-    for (std::size_t i = 0; i < families.size(); i++)
-        if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return static_cast<int>(i);
-    return -1;
+    int found = -1;
+    for (int i = 0; i < static_cast<int>(families.size()); i++) {
+        const vk::QueueFlags flags = families[static_cast<std::size_t>(i)].queueFlags;
+        if (!(flags & vk::QueueFlagBits::eCompute)) continue;
+        if (!(flags & vk::QueueFlagBits::eGraphics)) return i;
+        if (found < 0) found = i;
+    }
+    return found;
 }
 
 static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device) {
@@ -141,8 +149,6 @@ static std::uint64_t freeBytes(const vk::raii::PhysicalDevice& device) {
     return most;
 }
 
-const std::uint32_t stampCount = 8192;
-
 static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
     auto vk = std::make_unique<Gpu::Handles>();
     auto devices = attempt("vkEnumeratePhysicalDevices", installHint,
@@ -159,7 +165,6 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
         vk->nanosecondsPerTick = properties.limits.timestampPeriod;
         vk->tickMask = bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
     }
-    vk->stamps = vk->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = stampCount});
     vk->freeBytes = freeBytes(vk->physical);
     vk->isProcessor = vk->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     vk->mapsDeviceMemory =
@@ -169,7 +174,7 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
 
 Gpu::Handles::~Handles() {
     try {
-        if (!inFlight.empty()) device.waitIdle();
+        if (!warmingUp.empty()) device.waitIdle();
     } catch (const vk::SystemError&) { // a device that is lost runs nothing
     }
 }
@@ -181,40 +186,22 @@ vk::raii::CommandBuffer Gpu::Handles::begin() const {
     return std::move(buffers[0]);
 }
 
-static void enqueue(const vk::raii::Queue& queue, const vk::raii::CommandBuffer& recorded, vk::Fence fence) {
-    const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *recorded};
-    queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo}, fence);
-}
-
 static const char* const running = "running commands on the device";
 static const char* const runningHint = "another program may have hung or reset it";
 
-void Gpu::Handles::submit(vk::raii::CommandBuffer recorded, std::shared_ptr<const void> used) const {
-    attempt(running, runningHint, [&] { enqueue(queue, recorded, nullptr); });
-    inFlight.emplace_back(std::move(recorded), std::move(used));
+void Gpu::Handles::submit(const vk::raii::CommandBuffer& recorded, vk::Fence fence) const {
+    const vk::CommandBufferSubmitInfo commandInfo{.commandBuffer = *recorded};
+    attempt(running, runningHint, [&] {
+        queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commandInfo}, fence);
+    });
 }
 
-void Gpu::Handles::submitAndWait(const vk::raii::CommandBuffer& recorded) const {
-    // A fence alone does not make what was written visible to the host.
-    const vk::MemoryBarrier2 toHost{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                    .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                    .dstStageMask = vk::PipelineStageFlagBits2::eHost,
-                                    .dstAccessMask = vk::AccessFlagBits2::eHostRead};
-    recorded.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &toHost});
-    recorded.end();
+void Gpu::Handles::wait(const vk::raii::Fence& fence) {
     attempt(running, runningHint, [&] {
-        const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
-        enqueue(queue, recorded, *fence);
         const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
     });
-    inFlight.clear();
-}
-
-void Gpu::Handles::execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
-    const vk::raii::CommandBuffer recording = begin();
-    record(recording);
-    submitAndWait(recording);
+    warmingUp.clear(); // they were before
 }
 
 Gpu::Gpu(std::string_view wanted) : handles(open(wanted)) {}

@@ -53,6 +53,11 @@ public:
     /// compile one at a time: for kernels that run soon.
     bool compilesAhead = false;
 
+    /// How often the host waited for the device.
+    std::uint64_t waits = 0;
+    /// Runs of all kernels.
+    std::uint64_t dispatches = 0;
+
     /// A flag that another thread may set: from then on submissions throw Cancelled, until it is taken back.
     const std::atomic<bool>* cancel = nullptr;
 

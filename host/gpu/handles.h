@@ -4,9 +4,11 @@
 #include "gpu/kernel.h"
 #include "shared_paths.h"
 #include <deque>
-#include <functional>
 
 namespace vkpm {
+
+struct HostMemory;
+struct RecordingPart;
 
 struct Gpu::Handles {
     Instance instance;
@@ -14,7 +16,6 @@ struct Gpu::Handles {
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     vk::raii::CommandPool commands{nullptr};
-    vk::raii::QueryPool stamps{nullptr};
     std::uint32_t family = 0;
     float nanosecondsPerTick = 0;
     std::uint64_t tickMask = 0; // the bits that a timestamp has
@@ -26,19 +27,19 @@ struct Gpu::Handles {
     std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>>
         kernels;                                                  // by SPIR-V and features
     std::deque<std::shared_ptr<const RawKernel::Handles>> recent; // kernels that are kept for renderers to come
-    mutable std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>>
-        inFlight; // submitted without waiting, and what they use
+    std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>>
+        warmingUp;                                         // submitted without waiting, and what they use
+    std::vector<std::unique_ptr<RecordingPart>> idleParts; // for recordings to come
+    std::unique_ptr<HostMemory> staging;                   // once something is copied by way of the host's memory
 
     ~Handles();
 
     /// A command buffer that can be recorded.
     vk::raii::CommandBuffer begin() const;
-    /// Submits recorded commands, leaves them to run, and keeps what they use until they are done.
-    void submit(vk::raii::CommandBuffer commands, std::shared_ptr<const void> used) const;
-    /// Ends a recording, submits it, and waits until it, and all before, is done and the host sees what it wrote.
-    void submitAndWait(const vk::raii::CommandBuffer& commands) const;
-    /// Records commands, submits them and waits until they are done.
-    void execute(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
+    /// Submits commands whose recording has ended; the fence, if there is one, tells when they are done.
+    void submit(const vk::raii::CommandBuffer& commands, vk::Fence fence) const;
+    /// Waits for the fence of what was submitted.
+    void wait(const vk::raii::Fence& fence);
 };
 
 } // namespace vkpm

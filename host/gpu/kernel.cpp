@@ -50,7 +50,7 @@ static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device&
 }
 
 // A dispatch of nothing: drivers that compile a kernel when it first runs do so while the host goes on.
-static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel,
+static void warmUp(Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel,
                    std::uint32_t argsBytes) {
     vk::raii::CommandBuffer commands = gpu.begin();
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel->pipeline);
@@ -58,7 +58,8 @@ static void warmUp(const Gpu::Handles& gpu, const std::shared_ptr<const RawKerne
                                          std::vector<std::uint8_t>(argsBytes));
     commands.dispatch(0, 1, 1);
     commands.end();
-    gpu.submit(std::move(commands), kernel);
+    gpu.submit(commands, nullptr);
+    gpu.warmingUp.emplace_back(std::move(commands), kernel);
 }
 
 RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {

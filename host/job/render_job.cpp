@@ -238,6 +238,8 @@ Statistics RenderJob::statistics() const {
         if (bytes > 0) s.buffers.emplace_back(name, bytes);
     s.deviceBytes = gpu.peakBytes;
     s.rays = rays();
+    s.waits = renderer.work().waits;
+    s.dispatches = renderer.work().dispatches;
     s.global = countsOf(renderer.photons(MapKind::global));
     s.caustic = countsOf(renderer.photons(MapKind::caustic));
     s.globalRadii = globalRadii();
@@ -303,7 +305,7 @@ bool RenderJob::finish() {
         if (const std::uint64_t lost = renderer.photons(kind).lost)
             tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; "
                              "a closed scene that absorbs nothing has no finite light",
-                             lost, maxBounces));
+                             lost, MAX_BOUNCES));
     warnOfDarkness();
     warnOfBlur();
     save();

@@ -50,6 +50,8 @@ std::string statisticsJson(const Statistics& statistics) {
         {"total", statistics.totalSeconds}, {"setup", statistics.setupSeconds}, {"render", statistics.renderSeconds}};
     object["stages"] = sums(statistics.stages);
     object["rays"] = statistics.rays;
+    object["waits"] = statistics.waits;
+    object["dispatches"] = statistics.dispatches;
     object["photons"] = {{"global", photonsJson(statistics.global)}, {"caustic", photonsJson(statistics.caustic)}};
     object["radius"] = {{"global", radiiJson(statistics.globalRadii)},
                         {"caustic", radiiJson(statistics.causticRadii)},

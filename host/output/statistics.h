@@ -38,6 +38,8 @@ struct Statistics {
     double renderSeconds = 0;                             // all passes
     std::vector<std::pair<std::string, double>> stages{}; // seconds; a name that occurs twice is summed
     std::uint64_t rays = 0;                               // of every kind, over all passes
+    std::uint64_t waits = 0;                              // of the host for the device, in all passes
+    std::uint64_t dispatches = 0;                         // in all passes
     PhotonCounts global{};
     PhotonCounts caustic{};
     std::optional<GatherRadii> globalRadii{}; // absent with the map

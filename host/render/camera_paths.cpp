@@ -1,4 +1,4 @@
-/// The camera loop: eye, then trace, shade, shadow and gather until no path is under way.
+/// The camera loop: eye, then trace, shade, shadow and gather, a bounce at a time; the last paths to their ends.
 #include "render/camera_paths.h"
 #include "render/features.h"
 #include "shared_camera.h"
@@ -10,15 +10,28 @@
 
 namespace vkpm {
 
-// What paths of a small picture mark, in pixels of it: those of caustics what lies between two of them, gather rays,
-// which are few and go everywhere, what lies about.
+// Mark radius in pilot pixels: caustic queries cover the gap to their neighbours; gather rays are few and scattered, so
+// they cover more.
 const float pixelReach = 2, rayReach = 8;
 
+const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left, where it has to
+
+RayCounts CameraBatch::rays() const {
+    RayCounts rays{status.paths, status.shadowRays};
+    for (const auto& sequence : queues) {
+        rays.paths += sequence[QUEUE_CONTINUE].base;
+        rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
+    }
+    rays.paths -= std::uint64_t(queues.size() - 1) * count; // those that were looked at for gather rays
+    return rays;
+}
+
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
-                         uint batch)
-    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batch)),
+                         uint batchSize)
+    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batchSize)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
+      common(gpu, "camera pass", 1), status(gpu, "camera status", 1), eye(gpu, "eye", features),
+      traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
     if (asksLights(features, settings)) {
         shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);
@@ -32,6 +45,20 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
     }
+    if (!settings.showPoints) finishKernel.emplace(gpu, "finish_paths", features);
+}
+
+/// Bounces that all paths take together, so that few are left then. The number does not depend on how many, as the bits
+/// of a picture may, where kernels round differently, depend on it.
+uint CameraPaths::commonBounces(uint sequence) const {
+    if (settings.integrator == INTEGRATOR_PATH) return 16;
+    if (sequence == SAMPLES_EYE) return features.hasGlass || features.hasMirror ? 4 : 1;
+    return features.hasGlass ? 5 : 3;
+}
+
+ShadeArgs CameraPaths::shadeArgs(const Paths& of, uint bounce) const {
+    return {scene.address,   common,           paths,  hits, samples,  shadowRays,  queries,  splits, compaction.queues,
+            compaction.list, compaction.flags, status, size, of.first, of.sequence, of.index, bounce};
 }
 
 void CameraPaths::castShadowRays(Recording& recording) {
@@ -43,87 +70,114 @@ void CameraPaths::castShadowRays(Recording& recording) {
 }
 
 /// Answers the questions of a queue to a map, or marks where they were asked.
-void CameraPaths::queryPhotonMap(Recording& recording, const Batch& batch, uint kind, const PhotonMap& map) {
+void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMap& map) {
     if (map.radius == 0) return;
     const Ptr<Queue> queue{compaction.queues.address + kind * sizeof(Queue)};
-    if (!batch.maps.marks) {
+    if (!maps.marks) {
         recording.run(*gather, compaction.queues, kind, {map, queries, samples, queue, compaction.list, size});
         return;
     }
-    const VisibleCells::Map& marks = kind == QUEUE_CAUSTIC ? batch.maps.marks->caustic : batch.maps.marks->global;
+    const VisibleCells::Map& marks = kind == QUEUE_CAUSTIC ? maps.marks->caustic : maps.marks->global;
     const float reach = kind == QUEUE_CAUSTIC ? pixelReach : rayReach;
-    recording.run(batch.maps.marks->kernel, compaction.queues, kind,
+    recording.run(maps.marks->kernel, compaction.queues, kind,
                   {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
 }
 
-void CameraPaths::bounce(Recording& recording, const Batch& batch, uint index) {
+void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounce) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
-    recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address,
-                   paths,
-                   hits,
-                   samples,
-                   shadowRays,
-                   queries,
-                   splits,
-                   queues,
-                   compaction.list,
-                   compaction.flags,
-                   size,
-                   batch.first,
-                   batch.sequence,
-                   batch.index,
-                   settings.seed,
-                   index,
-                   features.hasCausticMap,
-                   batch.maps.nearDistance,
-                   pixelAngle,
-                   settings.integrator});
+    recording.run(shade, queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
     compaction.compact(recording);
 
-    castShadowRays(recording);
-    for (const PhotonMap& narrow : batch.maps.narrow) queryPhotonMap(recording, batch, QUEUE_CAUSTIC, narrow);
-    queryPhotonMap(recording, batch, QUEUE_CAUSTIC, batch.maps.caustic);
-    queryPhotonMap(recording, batch, QUEUE_GLOBAL, batch.maps.global);
+    const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
+    if (!splits) castShadowRays(recording);
+    for (const PhotonMap& narrow : maps.narrow) queryPhotonMap(recording, QUEUE_CAUSTIC, narrow);
+    queryPhotonMap(recording, QUEUE_CAUSTIC, maps.caustic);
+    if (!splits) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);
 }
 
-/// Batches of bounces, until the device says that no path is left.
-RayCounts CameraPaths::follow(Recording& recording, const Batch& batch, uint index) {
-    std::vector<Queue> queues;
-    while (index < maxBounces) {
-        for (uint i = 0; i < bouncesAtOnce; i++) bounce(recording, batch, index++);
+/// The paths of a queue from a bounce on.
+void CameraPaths::recordPaths(Recording& recording, const Paths& of, uint bounce,
+                              std::array<Queue, EYE_QUEUES>& queues) {
+    if (!finishKernel || maps.marks) return followBounces(recording, of, bounce, queues);
+    for (const uint end = bounce + commonBounces(of.sequence); bounce < end; bounce++)
+        recordBounce(recording, of, bounce);
+    recording.read(compaction.queues, std::span(queues));
+    if (endsLate) followEnds(recording, of, bounce);
+    else recording.run(*finishKernel, compaction.queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
+}
+
+/// Bounce after bounce, until the device says that no path is left.
+void CameraPaths::followBounces(Recording& recording, const Paths& of, uint bounce,
+                                std::array<Queue, EYE_QUEUES>& queues) {
+    do {
+        for (uint i = 0; i < bouncesAtOnce; i++) recordBounce(recording, of, bounce++);
+        recording.read(compaction.queues, std::span(queues));
         recording.submit();
-        queues = compaction.queues.download();
-        if (queues[QUEUE_CONTINUE].count == 0) break;
-    }
-    return {queues[QUEUE_CONTINUE].base, std::uint64_t(queues[QUEUE_SHADOW].base) + queues[QUEUE_SHADOW].count};
+    } while (queues[QUEUE_CONTINUE].count > 0 && bounce < MAX_BOUNCES);
 }
 
-RayCounts CameraPaths::trace(uint pass, uint first, uint count, const PhotonMaps& maps) {
-    Recording recording(gpu);
-    const Batch batch{first, count, SAMPLES_EYE, pass, maps};
-    pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
-    compaction.start(count);
-    recording.run(eye, count,
-                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, first, count, pass,
-                   settings.seed, settings.showPoints, split.has_value()});
-    RayCounts rays = follow(recording, batch, 0);
-    if (!split) return rays;
+/// The last paths, until none is left or all have had MAX_BOUNCES.
+void CameraPaths::followEnds(Recording& recording, const Paths& of, uint bounce) {
+    Queue queue{};
+    do {
+        recording.run(*finishKernel, compaction.queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
+        compaction.compact(recording);
+        recording.read(compaction.queues, QUEUE_CONTINUE, queue);
+        recording.submit();
+        bounce += FINISH_BOUNCES;
+    } while (queue.count > 0 && bounce < MAX_BOUNCES);
+}
 
-    const uint gatherRays = settings.gatherRays;
+void CameraPaths::begin(Recording& recording, uint index, const PhotonMaps& asked) {
+    pass = index;
+    maps = asked;
+    std::vector<PhotonMap> all = maps.narrow;
+    all.push_back(maps.caustic);
+    all.push_back(maps.global);
+    if (commonMaps.size() != all.size()) {
+        commonMaps = {};
+        commonMaps = Buffer<PhotonMap>(gpu, "camera maps", all.size());
+    }
+    const CameraPass shared{.maps = commonMaps,
+                            .narrow = static_cast<uint>(maps.narrow.size()),
+                            .seed = settings.seed,
+                            .caustics = features.hasCausticMap,
+                            .nearDistance = maps.nearDistance,
+                            .pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y),
+                            .integrator = settings.integrator};
+    recording.write(commonMaps, std::span<const PhotonMap>(all));
+    recording.write(common, std::span(&shared, 1));
+}
+
+void CameraPaths::record(Recording& recording, CameraBatch& batch) {
+    const uint gatherRays = split ? settings.gatherRays : 0;
+    batch.queues.assign(1 + gatherRays, {});
+    batch.status = {};
+    batch.isFollowed = endsLate;
+    recording.clear(status);
+    compaction.start(recording, batch.count);
+    recording.run(eye, batch.count,
+                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, batch.first,
+                   batch.count, pass, settings.seed, settings.showPoints, split.has_value()});
+    recordPaths(recording, {batch.first, SAMPLES_EYE, pass}, 0, batch.queues[0]);
     for (uint ray = 0; ray < gatherRays; ray++) {
-        const Batch gathering{first, count, SAMPLES_GATHER, pass * gatherRays + ray, maps};
-        compaction.start(count);
-        recording.run(*split, count,
-                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, first, count,
-                       gathering.index, settings.seed, 1 / float(gatherRays)});
+        const Paths gathering{batch.first, SAMPLES_GATHER, pass * gatherRays + ray};
+        compaction.start(recording, batch.count);
+        recording.run(*split, batch.count,
+                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, batch.first,
+                       batch.count, gathering.index, settings.seed, 1 / float(gatherRays)});
         compaction.compact(recording);
         castShadowRays(recording);
-        rays += follow(recording, gathering, 1);
-        rays.paths -= count; // those that were looked at
+        recordPaths(recording, gathering, 1, batch.queues[1 + ray]);
     }
-    return rays;
+    if (finishKernel) recording.read(status, 0, batch.status);
+}
+
+bool CameraPaths::finish(const CameraBatch& batch) {
+    const bool ended = batch.isFollowed || batch.status.unfinished == 0;
+    endsLate |= !ended;
+    return ended;
 }
 
 } // namespace vkpm

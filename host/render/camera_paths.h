@@ -6,7 +6,9 @@
 #include "shared_guide.h"
 #include "shared_paths.h"
 #include "shared_photons.h"
+#include <array>
 #include <optional>
+#include <vector>
 
 namespace vkpm {
 
@@ -37,15 +39,34 @@ struct RayCounts {
     RayCounts& operator+=(const RayCounts& other) { return paths += other.paths, shadow += other.shadow, *this; }
 };
 
+/// A range of pixels of a pass, and what the host hears of their paths.
+struct CameraBatch {
+    uint first; // pixel
+    uint count;
+    std::vector<std::array<Queue, EYE_QUEUES>> queues{}; // of the path from the eye, then of each gather ray
+    CameraStatus status{};
+    bool isFollowed = false; // whether paths were followed to their ends, however late
+
+    RayCounts rays() const;
+};
+
 /// Traces one path per pixel, and gather rays from where it ends, for a range of pixels at a time.
 class CameraPaths {
 public:
-    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, uint batch);
+    CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
+                uint batchSize);
 
-    /// Pixels that one call of trace() may take.
+    /// Pixels that one batch may have.
     uint capacity() const { return size; }
-    /// Fills `samples` for the pixels from `first` on.
-    RayCounts trace(uint pass, uint first, uint count, const PhotonMaps& maps);
+    /// Records what paths of a pass have in common. `maps` stay as they are until the pass is done.
+    void begin(Recording& recording, uint pass, const PhotonMaps& maps);
+    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done.
+    void record(Recording& recording, CameraBatch& batch);
+    /// Points to a number that is not 0 if paths of the last batch did not end, or nowhere.
+    Ptr<uint> unfinished() const { return {endsLate ? 0 : status.address}; }
+    /// Whether all paths of a batch, which was submitted, ended; else it is to be recorded again, and all batches from
+    /// then on follow such paths.
+    bool finish(const CameraBatch& batch);
 
     /// Where gather rays of the last range of pixels started, if paths are split.
     const Buffer<Split>& splitPoints() const { return splits; }
@@ -53,35 +74,43 @@ public:
     Buffer<float> samples; // [column][capacity]
 
 private:
-    /// What the paths under way have in common.
-    struct Batch {
+    /// Paths of a batch that are at the same bounce.
+    struct Paths {
         uint first; // pixel
-        uint count;
         uint sequence;
         uint index; // of the sample
-        const PhotonMaps& maps;
     };
+    uint commonBounces(uint sequence) const;
+    ShadeArgs shadeArgs(const Paths& of, uint bounce) const;
     void castShadowRays(Recording& recording);
-    void queryPhotonMap(Recording& recording, const Batch& batch, uint queue, const PhotonMap& map);
-    void bounce(Recording& recording, const Batch& batch, uint bounce);
-    RayCounts follow(Recording& recording, const Batch& batch, uint bounce);
+    void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
+    void recordBounce(Recording& recording, const Paths& of, uint bounce);
+    void recordPaths(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
+    void followBounces(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
+    void followEnds(Recording& recording, const Paths& of, uint bounce);
 
     Gpu& gpu;
     const UploadedScene& scene;
     Settings settings;
     Features features;
     uint size;
-    float pixelAngle = 0;
+    uint pass = 0;
+    PhotonMaps maps;
+    bool endsLate = false; // whether some paths do not end in one dispatch
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
     Buffer<ShadowRay> shadowRays;
     Buffer<Query> queries;
     Buffer<Split> splits;
+    Buffer<CameraPass> common;
+    Buffer<PhotonMap> commonMaps;
+    Buffer<CameraStatus> status;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;
-    std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
+    std::optional<Kernel<ShadeArgs>> finishKernel; // absent if points are shown
+    std::optional<Kernel<ShadowArgs>> shadow;      // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
     std::optional<Kernel<SplitArgs>> split; // absent if paths are not split
 };

@@ -14,17 +14,17 @@ Compaction::Compaction(Gpu& gpu, const std::string& name, uint capacity, uint ki
       sums(gpu, name + " sums", std::uint64_t(blocks) * kindCount + 1), tally(gpu, "compact_count"), scan(gpu, "scan"),
       scatter(gpu, "compact") {}
 
-void Compaction::start(uint count) {
+void Compaction::start(Recording& recording, uint count) {
     const uint groups = (count + GROUP - 1) / GROUP;
     const uint columns = std::clamp(groups, 1u, 65535u);
     std::vector<Queue> initial(kinds, Queue{0, 0, 1, 0, 0, 0});
     initial[0] = Queue{columns, (groups + columns - 1) / columns, 1, 0, count, 0};
-    queues.upload(initial);
+    recording.write(queues, std::span<const Queue>(initial));
 }
 
 void Compaction::compact(Recording& recording) {
     recording.run(tally, blocks, {queues, flags, sums, kinds});
-    recording.run(scan, GROUP, {sums, queues, kinds, COMPACTION_BLOCK});
+    recording.run(scan, GROUP, {sums, queues, {}, kinds, COMPACTION_BLOCK});
     recording.run(scatter, blocks, {queues, list, flags, sums, nextQueues, nextList, kinds});
     std::swap(queues, nextQueues);
     std::swap(list, nextList);

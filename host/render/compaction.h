@@ -14,7 +14,7 @@ public:
     Compaction(Gpu& gpu, const std::string& name, uint capacity, uint kinds);
 
     /// The first queue holds all places of `list` from 0 to count - 1, the others nothing.
-    void start(uint count);
+    void start(Recording& recording, uint count);
     /// Records the compaction of the first queue's flags; `list` becomes the new list.
     void compact(Recording& recording);
 

@@ -140,28 +140,26 @@ Film::Run& Film::append(PassRange passes) {
     return runs.emplace_back(passes, emptySums());
 }
 
-void Film::begin(uint pass) {
-    if (!runs.empty() && joins(runs.back().passes, {pass, pass + 1})) return;
-    const Uninterrupted here(gpu);
-    Recording recording(gpu);
-    for (const Buffer<float>& block : append({pass, pass}).sums) recording.clear(block);
-    recording.submit();
+void Film::begin(Recording& recording, uint pass) {
+    const bool begun = !runs.empty() && length(runs.back().passes) == 0; // and left
+    if (!begun && !runs.empty() && joins(runs.back().passes, {pass, pass + 1})) return;
+    for (const Buffer<float>& block : (begun ? runs.back() : append({pass, pass})).sums) recording.clear(block);
 }
 
-void Film::add(const Buffer<float>& samples, uint stride, uint first, uint sampleCount) {
+void Film::add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint sampleCount,
+               Ptr<uint> unfinished) {
     const Run& run = runs.back();
-    Recording recording(gpu);
     for (const Part& part : partsOf(first, sampleCount))
         recording.run(film, part.count,
                       {{samples.address + part.inRange * sizeof(float)},
                        run.sums[part.block],
                        status,
+                       unfinished,
                        stride,
                        pixelsOf(part.block),
                        part.inBlock,
                        part.count,
                        joinWeights(run.passes, {run.passes.end, run.passes.end + 1})});
-    recording.submit();
 }
 
 void Film::end() {

@@ -28,11 +28,13 @@ public:
     /// too large.
     Film(Gpu& gpu, uvec2 pixels, const Features& features = {}, uint blockPixels = 1u << 22);
 
-    /// Makes room for a pass, the one after the last. Neither this nor end() is ever cancelled.
-    void begin(uint pass);
-    /// Takes the pass's samples of pixels first .. first + count - 1; a column of the samples is `stride` long.
-    void add(const Buffer<float>& samples, uint stride, uint first, uint count);
-    /// Ends the pass.
+    /// Records the room for a pass, the one after the last.
+    void begin(Recording& recording, uint pass);
+    /// Records taking the pass's samples of pixels first .. first + count - 1, unless `unfinished` points to another
+    /// number than 0; a column of the samples is `stride` long.
+    void add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint count,
+             Ptr<uint> unfinished = {});
+    /// Ends the pass; it is never cancelled.
     void end();
 
     /// Takes over runs of passes, the first of which begins where the film ends; `sums` gives those of some rows, of

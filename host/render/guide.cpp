@@ -45,10 +45,12 @@ CameraPilot::CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& f
                                                            : maps.narrow.front());
         recording.clear(map->bits);
     }
-    recording.submit();
     PhotonMaps marked = maps;
     marked.marks = &marks;
-    paths.trace(NONE, 0, paths.capacity(), marked);
+    CameraBatch all{.first = 0, .count = paths.capacity()};
+    paths.begin(recording, NONE, marked);
+    paths.record(recording, all);
+    recording.submit();
 }
 
 GuideNeeds::GuideNeeds(const Scene& scene) {

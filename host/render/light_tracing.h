@@ -14,12 +14,15 @@ public:
     LightTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings, float flux,
                  uint batch);
 
-    /// Traces the photons of a pass, and sorts what they add to pixels by pixel. Of what it returns rays are those to
-    /// the camera as well.
-    PhotonLedger trace(uint pass);
-    /// Fills the caustic columns of the samples, which are `stride` long, of pixels first .. first + count - 1.
-    void collect(const Buffer<float>& samples, uint stride, uint first, uint count);
+    /// Records what the photons of a pass, which are there, add to pixels, sorted by pixel.
+    void recordSplats(Recording& recording);
+    /// Records what fills the caustic columns of the samples, which are `stride` long, of pixels first .. first + count
+    /// - 1.
+    void recordSums(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint count);
+    /// What became of the photons, once the splats were submitted; rays are those to the camera as well.
+    PhotonLedger passLedger() const;
 
+    PhotonTracing tracing;
     PhotonLedger ledger; // of all passes
 
 private:
@@ -27,13 +30,12 @@ private:
     const UploadedScene& scene;
     uvec2 size;
     float photonFlux; // W
-    PhotonTracing tracing;
-    Sort sort; // of photons by the pixel that sees them
+    Sort sort;        // of photons by the pixel that sees them
     Buffer<Splat> splats;
     Buffer<uint> rays;
-    uint splatCount = 0;
+    uint splatCount = 0, rayCount = 0;
     Kernel<SplatArgs> splat;
-    Kernel<SumSplatsArgs> collectKernel;
+    Kernel<SumSplatsArgs> sumSplats;
 };
 
 } // namespace vkpm

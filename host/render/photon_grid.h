@@ -14,10 +14,14 @@ public:
     /// Where cells are split, keys have at least `blockBits` bits for the block.
     PhotonGrid(Gpu& gpu, std::string name, uint blockBits = 6);
 
-    /// Sorts the first `count` of `photons` into cells for gathers within `radius`.
-    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. In the map of
-    /// a pass, overfull cells are thinned (see cell_thinning.glsl); without one, all photons are there. The result has
-    /// no radius field, and is valid until the next build.
+    /// Records the sort of the first `count` of `photons` into cells for gathers within `radius`.
+    /// `photonFlux` is the flux per emitted photon, W; cells are split `levels` times for smaller radii. The result has
+    /// no radius field, and is valid until the next one.
+    PhotonMap record(Recording& recording, const Buffer<Photon>& photons, uint count, float radius, float photonFlux,
+                     uint levels = 0);
+    /// Thins overfull cells (see cell_thinning.glsl), if what was recorded, and submitted since, has any.
+    void thin(const Buffer<Photon>& photons, uint count, uint pass);
+    /// Records, submits, and thins what is the map of a pass; without one, all photons are there.
     PhotonMap build(const Buffer<Photon>& photons, uint count, float radius, float photonFlux, uint levels = 0,
                     std::optional<uint> pass = {});
 
@@ -30,9 +34,6 @@ private:
         Buffer<Queue> whole;
     };
 
-    bool isCrowded();
-    void thin(const Buffer<Photon>& photons, uint count, uint mask, uint pass);
-
     Gpu& gpu;
     std::string name;
     uint blockBits;
@@ -43,6 +44,7 @@ private:
     Kernel<ReorderPhotonsArgs> arrange;
     Kernel<CellsArgs> cellStarts;
     Buffer<uint> overfull;
+    uint isOverfull = 0; // whether any cell is
     std::optional<Thinning> thinning;
 };
 

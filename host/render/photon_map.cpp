@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ranges>
+#include <utility>
 
 namespace vkpm {
 
@@ -159,16 +160,14 @@ std::vector<PhotonMap> PhotonMapStage::narrowMaps() const {
     return maps;
 }
 
-PhotonLedger PhotonMapStage::build(uint pass) {
-    const PhotonLedger traced = tracing.trace(pass);
-    if (builtPass == pass) return traced;
+void PhotonMapStage::recordCells(Recording& recording, uint pass) {
+    recordedPass.reset();
+    if (builtPass == pass) return;
     builtPass.reset(); // until it is done
-    const uint stored = static_cast<uint>(traced.stored);
     const float factor = radiusFactor(pass, settings.alpha);
-    // Points are shown as they are, and the k nearest are those of all photons.
-    const std::optional<uint> thinned = settings.showPoints || settings.nearest ? std::nullopt : std::optional(pass);
+    const auto stored = static_cast<uint>(tracing.arrived());
     const auto make = [&](PhotonGrid& cells, float widest, uint split) {
-        PhotonMap map = cells.build(tracing.photons, stored, widest, flux, split, thinned);
+        PhotonMap map = cells.record(recording, tracing.photons, stored, widest, flux, split);
         map.shrink = factor;
         map.kernel = settings.kernel;
         map.nearest = settings.nearest;
@@ -180,8 +179,18 @@ PhotonLedger PhotonMapStage::build(uint pass) {
         finer.map = make(finer.grid, finer.radius * factor, finer.levels());
         finer.field.apply(finer.map);
     }
-    builtPass = pass;
-    return traced;
+    recordedPass = pass;
+}
+
+// Points are shown as they are, and the k nearest are those of all photons.
+void PhotonMapStage::finishCells() {
+    if (!recordedPass) return;
+    const auto stored = static_cast<uint>(tracing.arrived());
+    if (!settings.showPoints && !settings.nearest) {
+        grid.thin(tracing.photons, stored, *recordedPass);
+        for (NarrowMap& finer : narrow) finer.grid.thin(tracing.photons, stored, *recordedPass);
+    }
+    builtPass = std::exchange(recordedPass, {});
 }
 
 } // namespace vkpm

@@ -44,8 +44,10 @@ public:
     /// do not count, if it is known which.
     void measureRadii();
 
-    /// Makes the map of a pass, if it is not that yet; returns what became of the photons.
-    PhotonLedger build(uint pass);
+    /// Records the cells of a pass, whose photons are there, if they are not yet those that were recorded last.
+    void recordCells(Recording& recording, uint pass);
+    /// Completes them, once they were submitted.
+    void finishCells();
     /// The map that was made last; that of narrow discs, the narrowest first.
     const PhotonMap& map() const { return built; }
     std::vector<PhotonMap> narrowMaps() const;
@@ -84,7 +86,7 @@ private:
     bool isRoundingBound = false;
     std::optional<Guide> learned{};
     PhotonMap built{};
-    std::optional<uint> builtPass{};
+    std::optional<uint> builtPass{}, recordedPass{};
 };
 
 } // namespace vkpm

@@ -1,11 +1,15 @@
-/// The photon loop: emit, then trace and scatter until no photon of the batch is under way, then place those that
-/// arrived.
+/// A batch of photons: emit, then trace and scatter, a bounce at a time; the last photons to their ends; then store
+/// those that arrived.
 #include "render/photon_tracing.h"
 #include "shared_paths.h"
 #include "shared_photons.h"
 #include <algorithm>
 
 namespace vkpm {
+
+// Bounces that all photons of a batch take together. The few that are left then go on by themselves. The number does
+// not depend on how many are left, as the bits of a picture may, where kernels round differently, depend on it.
+const uint commonBounces = 6;
 
 PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     emitted += other.emitted;
@@ -18,16 +22,20 @@ PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     return *this;
 }
 
+// Up to so many photons room is made for as many as there may be; of more the first batch tells.
+const uint fewPhotons = 1u << 18;
+
 PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& has, MapKind mapKind,
-                             uint photonCount, uint sequence, uint batchSize)
+                             uint photonCount, uint sequence, uint size)
     : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence),
-      batch(std::min(batchSize, count)), name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"),
-      compaction(gpu, name, batch, PHOTON_QUEUES), paths(gpu, name + " paths", batch), hits(gpu, name + " hits", batch),
-      counts(gpu, name + " counts", batch + 1ull), whole(gpu, name + " batch", 1), status(gpu, name + " status", 1),
+      batchSize(std::min(size, count)), name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"),
+      compaction(gpu, name, batchSize, PHOTON_QUEUES), paths(gpu, name + " paths", batchSize),
+      hits(gpu, name + " hits", batchSize), counts(gpu, name + " counts", batchSize + 1ull),
+      stored(gpu, name + " stored", 1), whole(gpu, name + " batch", 1), status(gpu, name + " status", 1),
       emit(gpu, "emit", features), traceKernel(gpu, "trace", features), scatter(gpu, "scatter", features),
-      scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
-    const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
-    deposits = Buffer<PhotonDeposit>(gpu, name + " deposits", std::uint64_t(perPhoton) * batch);
+      finishKernel(gpu, "finish_photons", features), scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
+    const uint perPhoton = kind == MapKind::caustic ? 1 : 3; // the one is exact
+    makeRoom(std::uint64_t(perPhoton) * batchSize, count <= fewPhotons ? std::uint64_t(perPhoton) * count : 0);
 }
 
 void PhotonTracing::guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> toFill) {
@@ -39,89 +47,141 @@ void PhotonTracing::guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> toFill) {
     held.reset();
 }
 
-void PhotonTracing::bounce(Recording& recording, uint pass, uint first, uint index) {
-    const Buffer<Queue>& queues = compaction.queues;
-    recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
-    recording.run(scatter, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, deposits, counts, queues, compaction.list, compaction.flags, status,
-                   static_cast<uint>(deposits.size()), first, pass, seed, index, uint(kind)});
-    compaction.compact(recording);
+PhotonLedger PhotonTracing::Batch::ledger() const {
+    return {.emitted = size,
+            .stored = status.deposits,
+            .absorbed = status.absorbed,
+            .escaped = status.escaped,
+            .lost = lost,
+            .rays = std::uint64_t(left.base) - size + status.rays,
+            .nonfinite = status.nonfinite[NONFINITE_PHOTON]};
 }
 
-PhotonLedger PhotonTracing::traceBatch(uint pass, uint first, uint size) {
-    Recording recording(gpu);
+/// The bounces that the paths of a batch take together.
+void PhotonTracing::recordPaths(Recording& recording, Batch& batch) {
     recording.clear(status);
-    compaction.start(size);
-    recording.run(emit, size,
-                  {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts, first,
-                   size, pass, seed, uint(kind)});
+    compaction.start(recording, batch.size);
+    recording.run(emit, batch.size,
+                  {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts,
+                   batch.first, batch.size, batch.pass, seed, uint(kind)});
     compaction.compact(recording);
-
-    // Batches of bounces, until the device says that no photon is left.
-    Queue queue{};
-    for (uint index = 0; index < maxBounces;) {
-        for (const uint end = index + bouncesAtOnce; index < end; index++) bounce(recording, pass, first, index);
-        recording.submit();
-        queue = compaction.queues.readElement(QUEUE_CONTINUE);
-        if (queue.count == 0) break;
+    for (uint bounce = 0; bounce < commonBounces; bounce++) {
+        const Buffer<Queue>& queues = compaction.queues;
+        recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
+        recording.run(scatter, queues, QUEUE_CONTINUE,
+                      {scene.address, paths, hits, deposits, counts, queues, compaction.list, compaction.flags, status,
+                       static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, uint(kind)});
+        compaction.compact(recording);
     }
+    recording.read(compaction.queues, QUEUE_CONTINUE, batch.left);
+}
 
-    const Status result = status.readElement();
-    return {.emitted = size,
-            .stored = result.deposits,
-            .absorbed = result.absorbed,
-            .escaped = result.escaped,
-            .lost = queue.count,
-            .rays = std::uint64_t(queue.base) - size};
+/// Takes the paths that are left to their ends, or FINISH_BOUNCES further.
+void PhotonTracing::recordEnds(Recording& recording, const Batch& batch, uint bounce) {
+    const Buffer<Queue>& queues = compaction.queues;
+    recording.run(finishKernel, queues, QUEUE_CONTINUE,
+                  {scene.address, paths, hits, deposits, counts, queues, compaction.list, compaction.flags, status,
+                   static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, uint(kind)});
+}
+
+/// The same again and again, until none is left or all have had MAX_BOUNCES.
+void PhotonTracing::followEnds(Recording& recording, Batch& batch) {
+    Queue queue{.count = 1};
+    for (uint bounce = commonBounces; queue.count > 0 && bounce < MAX_BOUNCES; bounce += FINISH_BOUNCES) {
+        recordEnds(recording, batch, bounce);
+        compaction.compact(recording);
+        recording.read(compaction.queues, QUEUE_CONTINUE, queue);
+        recording.submit();
+    }
+    batch.lost = queue.count;
 }
 
 /// Puts the deposits of a batch behind the photons of the batches before it, and counts those that are not finite.
-void PhotonTracing::place(std::uint64_t first, uint arrived, uint size) {
-    const Queue all{.count = size};
-    whole.upload(std::span(&all, 1));
-    Recording recording(gpu);
-    recording.run(scan, GROUP, {counts, whole, 1, 1});
-    recording.run(placeKernel, arrived, {deposits, counts, photons, status, static_cast<uint>(first), arrived});
-    recording.submit();
+void PhotonTracing::recordPhotons(Recording& recording, Batch& batch) {
+    const Queue all{.count = batch.size};
+    recording.write(whole, std::span(&all, 1));
+    recording.run(scan, GROUP, {counts, whole, stored, 1, 1});
+    recording.run(
+        placeKernel, deposits.size(),
+        {deposits, counts, photons, status, static_cast<uint>(deposits.size()), static_cast<uint>(photons.size())});
+    recording.read(status, 0, batch.status);
 }
 
-PhotonLedger PhotonTracing::attemptBatch(uint pass, uint first, uint size, std::uint64_t stored) {
-    PhotonLedger ledger = traceBatch(pass, first, size);
-    // A pass is a pure function of its index: with room for all photons it repeats exactly.
-    if (ledger.stored > deposits.size()) {
+/// Makes room for as many; false if there was none.
+bool PhotonTracing::makeRoom(std::uint64_t depositCount, std::uint64_t photonCount) {
+    const bool deposited = depositCount <= deposits.size(), fits = photonCount <= photons.size();
+    if (!deposited) {
         deposits = {};
-        deposits = Buffer<PhotonDeposit>(gpu, name + " deposits", ledger.stored + ledger.stored / 8);
-        ledger = traceBatch(pass, first, size);
+        deposits = Buffer<PhotonDeposit>(gpu, name + " deposits", depositCount);
     }
-    if (photons.size() == 0) { // about as many per photon as in the first batch
-        const double expected = 1.02 * double(ledger.stored) / size * count;
-        photons = Buffer<Photon>(gpu, name + "s", static_cast<std::uint64_t>(expected) + 1000);
-    }
-    if (stored + ledger.stored <= photons.size()) place(stored, static_cast<uint>(ledger.stored), size);
-    ledger.nonfinite = status.readElement().nonfinite[NONFINITE_PHOTON];
-    return ledger;
-}
-
-PhotonLedger PhotonTracing::attempt(uint pass) {
-    PhotonLedger ledger;
-    for (uint first = 0; first < count; first += batch) {
-        const uint size = std::min(batch, count - first);
-        ledger += attemptBatch(pass, first, size, ledger.stored);
-    }
-    return ledger;
-}
-
-PhotonLedger PhotonTracing::trace(uint pass) {
-    if (held == pass) return heldLedger;
-    held.reset(); // until all are there
-    heldLedger = attempt(pass);
-    if (heldLedger.stored > photons.size()) {
+    if (!fits) {
         photons = {};
-        photons = Buffer<Photon>(gpu, name + "s", heldLedger.stored + heldLedger.stored / 8);
-        heldLedger = attempt(pass);
+        photons = Buffer<Photon>(gpu, name + "s", photonCount);
     }
-    held = pass;
-    return heldLedger;
+    return deposited && fits;
+}
+
+/// Makes room for about as many per photon as the first batch has.
+void PhotonTracing::makeRoom(uint pass) {
+    Batch batch{.pass = pass, .first = 0, .size = batchSize};
+    Recording recording(gpu);
+    recordPaths(recording, batch);
+    recordEnds(recording, batch, commonBounces);
+    recording.read(status, 0, batch.status);
+    recording.submit();
+    const double expected = 1.02 * double(batch.status.deposits) / batchSize * count;
+    makeRoom(batch.status.deposits + batch.status.deposits / 8, static_cast<std::uint64_t>(expected) + 1000);
+}
+
+void PhotonTracing::record(Recording& recording, uint pass) {
+    recorded.reset();
+    if (held == pass) return;
+    held.reset(); // until all are there
+    if (photons.size() == 0) makeRoom(pass);
+    batches.clear();
+    for (uint first = 0; first < count; first += batchSize)
+        batches.push_back({.pass = pass, .first = first, .size = std::min(batchSize, count - first)});
+    recording.clear(stored);
+    for (Batch& batch : batches) {
+        recordPaths(recording, batch);
+        if (endsLate) followEnds(recording, batch);
+        else recordEnds(recording, batch, commonBounces);
+        recordPhotons(recording, batch);
+        recording.flush();
+    }
+    recorded = pass;
+}
+
+// A pass is a pure function of its index: with room for all photons, and time for their ends, it repeats exactly.
+bool PhotonTracing::finish() {
+    if (!recorded) return held.has_value();
+    PhotonLedger ledger;
+    std::uint64_t most = 0;
+    bool ended = true;
+    for (const Batch& batch : batches) {
+        ledger += batch.ledger();
+        most = std::max<std::uint64_t>(most, batch.status.deposits);
+        ended &= batch.status.unfinished == 0 || endsLate;
+    }
+    endsLate |= !ended;
+    const bool stays = makeRoom(most > deposits.size() ? most + most / 8 : 0,
+                                ledger.stored > photons.size() ? ledger.stored + ledger.stored / 8 : 0);
+    if (ended && stays) {
+        held = recorded;
+        passLedger = ledger;
+    }
+    recorded.reset();
+    return held.has_value();
+}
+
+const PhotonLedger& PhotonTracing::trace(uint pass) {
+    while (held != pass) {
+        Recording recording(gpu);
+        record(recording, pass);
+        recording.submit();
+        finish();
+    }
+    return passLedger;
 }
 
 } // namespace vkpm

@@ -25,31 +25,52 @@ struct PhotonLedger {
 
 enum class MapKind : uint { global = 0, caustic = 1 };
 
-/// Emits `count` photons per pass, `batch` of them at a time, and keeps where they arrive in the order of their
+/// Emits `count` photons per pass, `batchSize` of them at a time, and keeps where they arrive in the order of their
 /// indices, those of one photon in the order of its bounces; the size of batches changes nothing.
 class PhotonTracing {
 public:
     PhotonTracing(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint count, uint seed,
-                  uint batch);
+                  uint batchSize);
 
-    /// Fills `photons` with ledger.stored photons of a pass, unless they are there already.
-    PhotonLedger trace(uint pass);
+    /// Records what fills `photons` with those of a pass, unless they are there already.
+    void record(Recording& recording, uint pass);
+    /// Whether what was recorded, and submitted since, has filled them; else there is room now, and it is to be
+    /// recorded again.
+    bool finish();
+    /// Records and submits until they are there. Returns what became of them.
+    const PhotonLedger& trace(uint pass);
+    /// What became of the photons that are there.
+    const PhotonLedger& ledger() const { return passLedger; }
+
     /// Starts photons by a guide's density, or uniformly if it has no nodes; how, and how useful each was, goes to
     /// `starts`, if there are any.
     void guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> starts = {});
     /// Where the photons of each path begin, if there is one batch.
     Ptr<uint> places() const { return counts; }
     /// How many photons there are.
-    std::uint64_t arrived() const { return held ? heldLedger.stored : 0; }
+    std::uint64_t arrived() const { return held ? passLedger.stored : 0; }
 
     Buffer<Photon> photons;
 
 private:
-    PhotonLedger attempt(uint pass);
-    PhotonLedger attemptBatch(uint pass, uint first, uint size, std::uint64_t stored);
-    PhotonLedger traceBatch(uint pass, uint first, uint size);
-    void place(std::uint64_t first, uint arrived, uint size);
-    void bounce(Recording& recording, uint pass, uint first, uint bounce);
+    /// A part of a pass, and what the host hears of it.
+    struct Batch {
+        uint pass;
+        uint first; // photon
+        uint size;
+        Queue left{}; // paths that are taken to their ends
+        std::uint64_t lost = 0;
+        Status status{};
+
+        PhotonLedger ledger() const;
+    };
+
+    void recordPaths(Recording& recording, Batch& batch);
+    void recordEnds(Recording& recording, const Batch& batch, uint bounce);
+    void followEnds(Recording& recording, Batch& batch);
+    void recordPhotons(Recording& recording, Batch& batch);
+    void makeRoom(uint pass);
+    bool makeRoom(std::uint64_t depositCount, std::uint64_t photonCount);
 
     Gpu& gpu;
     const UploadedScene& scene;
@@ -57,22 +78,27 @@ private:
     MapKind kind;
     uint count;
     uint seed;
-    uint batch;
+    uint batchSize;
     Ptr<GuideNode> guideNodes;
     Ptr<PrimarySample> starts;
-    std::optional<uint> held; // pass whose photons these are
-    PhotonLedger heldLedger;
+    std::optional<uint> held;     // pass whose photons these are
+    std::optional<uint> recorded; // pass whose photons they will be
+    PhotonLedger passLedger;
+    std::vector<Batch> batches; // of the pass that was recorded
+    bool endsLate = false;      // whether some photons do not end in one dispatch
     std::string name;
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
     Buffer<PhotonDeposit> deposits;
-    Buffer<uint> counts; // of a path's deposits, then their prefix sums
+    Buffer<uint> counts; // of a path's deposits, then where they go
+    Buffer<uint> stored; // of the batches so far
     Buffer<Queue> whole; // all paths of the batch
     Buffer<Status> status;
     Kernel<EmitArgs> emit;
     Kernel<TraceArgs> traceKernel;
     Kernel<ScatterArgs> scatter;
+    Kernel<ScatterArgs> finishKernel;
     Kernel<ScanArgs> scan;
     Kernel<StorePhotonsArgs> placeKernel;
 };

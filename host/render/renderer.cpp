@@ -57,7 +57,8 @@ void Renderer::setView(const View& view, uvec2 size) {
     if (resized) constructCamera();
     film = Film(gpu, size, sceneHas);
     cameraRays = {};
-    taken.reset();
+    underWay.clear();
+    submitted = 0;
     for (std::optional<PhotonMapStage>* map : {&global, &caustic})
         if (*map) (*map)->ledger = {}, (*map)->clearGuide();
     if (light) light->ledger = {};
@@ -70,12 +71,28 @@ PhotonLedger Renderer::photons(MapKind kind) const {
     return map ? map->ledger : PhotonLedger{};
 }
 
-/// Returns what became of the photons that the map needed. Looking at a map means looking at one map: that of the first
-/// pass.
-PhotonLedger Renderer::buildMap(std::optional<PhotonMapStage>& map, uint pass) {
-    const bool still = settings.integrator == INTEGRATOR_PHOTON_MAP;
-    if (!map || (still && map->ledger.emitted > 0)) return {};
-    return map->build(still ? 0 : pass);
+/// Photons of all kinds, which the host has to count before it can sort them, and their cells and splats. Looking at a
+/// map means looking at one map: that of the first pass.
+void Renderer::buildMaps(Recording& recording, uint pass) {
+    const uint shown = settings.integrator == INTEGRATOR_PHOTON_MAP ? 0 : pass;
+    std::vector<PhotonTracing*> tracings;
+    for (std::optional<PhotonMapStage>* map : {&global, &caustic})
+        if (*map) tracings.push_back(&(*map)->tracing);
+    const std::size_t maps = tracings.size();
+    if (light) tracings.push_back(&light->tracing);
+    for (bool finished = false; !finished;) {
+        for (std::size_t i = 0; i < tracings.size(); i++) tracings[i]->record(recording, i < maps ? shown : pass);
+        recording.submit();
+        finished = true;
+        for (PhotonTracing* tracing : tracings) finished &= tracing->finish();
+    }
+
+    for (std::optional<PhotonMapStage>* map : {&global, &caustic})
+        if (*map) (*map)->recordCells(recording, shown);
+    if (light) light->recordSplats(recording);
+    recording.submit();
+    for (std::optional<PhotonMapStage>* map : {&global, &caustic})
+        if (*map) (*map)->finishCells();
 }
 
 /// The maps as camera paths ask them.
@@ -92,28 +109,55 @@ PhotonMaps Renderer::maps(uint pass) const {
     return maps;
 }
 
+/// The paths of a pass, a batch after the other, into the film. While the device works on one the host records the
+/// next.
+void Renderer::tracePaths(Recording& recording, uint pass) {
+    const uint pixels = settings.size.x * settings.size.y, batchSize = camera->capacity();
+    if (underWay.empty())
+        for (uint first = 0; first < pixels; first += batchSize)
+            underWay.push_back({.first = first, .count = std::min(batchSize, pixels - first)});
+    camera->begin(recording, pass, maps(pass));
+    if (submitted == 0) film.begin(recording, pass);
+    const auto record = [&](CameraBatch& batch) {
+        camera->record(recording, batch);
+        if (light) light->recordSums(recording, camera->samples, batchSize, batch.first, batch.count);
+        film.add(recording, camera->samples, batchSize, batch.first, batch.count, camera->unfinished());
+    };
+    try {
+        for (; submitted < underWay.size(); submitted++) {
+            record(underWay[submitted]);
+            recording.flush();
+        }
+    } catch (const Cancelled&) {
+        recording.wait(); // for what was submitted, which will not be done again
+        throw;
+    }
+    recording.wait();
+    for (CameraBatch& batch : underWay)
+        while (!camera->finish(batch)) {
+            CameraBatch again{.first = batch.first, .count = batch.count};
+            record(again);
+            recording.submit();
+            batch = again;
+        }
+}
+
 void Renderer::renderPass(uint pass) {
     pilot.prepare(gpu, scene, sceneHas, settings, global, caustic);
-    const PhotonLedger ofGlobal = buildMap(global, pass), ofCaustic = buildMap(caustic, pass);
-    const PhotonLedger ofLight = light ? light->trace(pass) : PhotonLedger{};
-    const PhotonMaps asked = maps(pass);
-
-    const uint pixels = settings.size.x * settings.size.y;
-    if (!taken) film.begin(pass), taken = 0;
-    while (*taken < pixels) {
-        const uint first = *taken, count = std::min(camera->capacity(), pixels - first);
-        const RayCounts rays = camera->trace(pass, first, count, asked);
-        if (light) light->collect(camera->samples, camera->capacity(), first, count);
-        film.add(camera->samples, camera->capacity(), first, count);
-        cameraRays.paths += rays.paths;
-        cameraRays.shadow += rays.shadow;
-        *taken += count;
-    }
+    const Work before{gpu.waits, gpu.dispatches};
+    Recording recording(gpu);
+    buildMaps(recording, pass);
+    tracePaths(recording, pass);
     film.end();
-    taken.reset();
-    if (global) global->ledger += ofGlobal;
-    if (caustic) caustic->ledger += ofCaustic;
-    if (light) light->ledger += ofLight;
+    for (const CameraBatch& batch : underWay) cameraRays += batch.rays();
+    underWay.clear();
+    submitted = 0;
+    const bool still = settings.integrator == INTEGRATOR_PHOTON_MAP;
+    for (std::optional<PhotonMapStage>* map : {&global, &caustic})
+        if (*map && !(still && (*map)->ledger.emitted > 0)) (*map)->ledger += (*map)->tracing.ledger();
+    if (light) light->ledger += light->passLedger();
+    passWork.waits += gpu.waits - before.waits;
+    passWork.dispatches += gpu.dispatches - before.dispatches;
     if (sceneHas.checksFeatures) scene.requireNothingMissing();
 }
 

@@ -16,6 +16,12 @@ struct BatchSizes {
     uint camera = 1u << 17;
 };
 
+/// What passes made the device and the host do.
+struct Work {
+    std::uint64_t waits = 0; // of the host for the device
+    std::uint64_t dispatches = 0;
+};
+
 /// Renders a scene pass by pass into its film; pass i is a pure function of (scene, settings, i).
 class Renderer {
 public:
@@ -32,6 +38,8 @@ public:
     void setView(const View& view, uvec2 size);
 
     RayCounts rays() const { return cameraRays; }
+    /// Of all passes; what is learned before the first one is not in it.
+    const Work& work() const { return passWork; }
     /// What the kernels are made for; hasGuide once a pass was rendered.
     Features features() const;
     const std::optional<PhotonMapStage>& globalMap() const { return global; }
@@ -43,7 +51,8 @@ public:
 private:
     std::optional<PhotonMapStage> construct(MapKind kind, const Extent& extent);
     void constructCamera();
-    PhotonLedger buildMap(std::optional<PhotonMapStage>& map, uint pass);
+    void buildMaps(Recording& recording, uint pass);
+    void tracePaths(Recording& recording, uint pass);
     PhotonMaps maps(uint pass) const;
 
     Gpu& gpu;
@@ -58,7 +67,9 @@ private:
     std::optional<LightTracing> light;
     std::optional<CameraPaths> camera;
     RayCounts cameraRays;
-    std::optional<uint> taken; // pixels of the pass under way that the film has
+    std::vector<CameraBatch> underWay; // all of a pass
+    std::size_t submitted = 0;         // of these
+    Work passWork;
 
 public:
     Film film;

@@ -23,11 +23,11 @@ void Sort::reserve(std::uint64_t count) {
 void Sort::sort(Recording& recording, uint count, uint bits) {
     if (count == 0) return; // there may be no buffers
     const Queue whole{.count = count};
-    queue.upload(std::span(&whole, 1));
+    recording.write(queue, std::span(&whole, 1));
     const std::uint64_t threads = std::uint64_t((count + SORT_BLOCK - 1) / SORT_BLOCK) * GROUP;
     for (uint shift = 0; shift < bits; shift += SORT_BITS) {
         recording.run(countDigits, threads, {keys, sums, count, shift});
-        recording.run(scan, GROUP, {sums, queue, digits, SORT_BLOCK});
+        recording.run(scan, GROUP, {sums, queue, {}, digits, SORT_BLOCK});
         recording.run(scatter, threads, {keys, values, spareKeys, spareValues, sums, count, shift});
         std::swap(keys, spareKeys);
         std::swap(values, spareValues);

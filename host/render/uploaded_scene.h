@@ -7,8 +7,6 @@
 namespace vkpm {
 
 /// Bounces after which a path ends: a photon is lost, a path from the eye finds no more light.
-const uint maxBounces = 10'000;
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left; divides maxBounces
 
 /// Uploads the arrays of a scene once; kernels read them through `address`.
 class UploadedScene {
