@@ -50,7 +50,7 @@ void joinBeauty(floatPtr sums, uint pixels, uint pixel, floatPtr other, uint str
     vec3 ownRest = loadColumns(sums, pixels, COLUMN_COMPENSATION, pixel);
     precise vec3 apart = minusTimes(ownRest, rest, w.times);
     precise vec3 newRest = ownRest + rest;
-    for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
+    [[dont_unroll]] for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
         if (!hasLayer(layer)) continue;
         vec3 a = loadColumns(sums, pixels, layerColumn(layer), pixel);
         vec3 b = loadColumns(other, stride, layerColumn(layer), slot);

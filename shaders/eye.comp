@@ -22,5 +22,6 @@ void main() {
     args.list.at[slot] = slot;
     if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
 
-    for (uint column = 0u; column < SAMPLE_COLUMNS; column++) args.samples.at[column * args.stride + slot] = 0.0;
+    [[dont_unroll]] for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+        args.samples.at[column * args.stride + slot] = 0.0;
 }

@@ -10,7 +10,7 @@
 ARGS(FilmArgs)
 
 void blacken(uint slot) {
-    for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
+    [[dont_unroll]] for (uint layer = 0u; layer < LAYER_COUNT; layer++) {
         if (!hasLayer(layer) || isFinite(loadColumns(args.samples, args.stride, layerColumn(layer), slot))) continue;
         atomicAdd(args.status.at[0].nonfinite[layer], 1u);
         storeColumns(args.samples, args.stride, layerColumn(layer), slot, vec3(0.0));
@@ -30,6 +30,6 @@ void main() {
         precise float square = bias * bias;
         args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += square;
     }
-    for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+    [[dont_unroll]] for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
         args.sums.at[column * args.pixels + pixel] += args.samples.at[column * args.stride + slot];
 }

@@ -7,13 +7,34 @@
 #include "shade.glsl"
 #include "trace_path.glsl"
 
-// Adds what a path asks of the maps: first of those of narrow discs, then of that of caustics, or of the global one.
-void addGathered(uint slot, uint queues, Query query) {
+// Asks the maps: those of narrow discs, then that of caustics; or the global one.
+bool gatherFrom(uint queues, Query query, out vec3 radiance, out vec3 bias) {
     CameraPass pass = args.pass.at[0];
     bool global = (queues & 1u << QUEUE_GLOBAL) != 0u;
-    for (uint i = global ? pass.narrow + 1u : 0u; i < pass.narrow + (global ? 2u : 1u) && query.column != NONE; i++) {
+    uint end = global ? pass.narrow + 2u : pass.narrow + 1u;
+    for (uint i = global ? pass.narrow + 1u : 0u; i < end; i++) {
         PhotonMap map = PhotonMapPtr(pass.maps).at[i];
-        if (map.radius > 0.0) gather(map, query, args.samples, args.stride, slot);
+        if (map.radius > 0.0 && gather(map, query, radiance, bias)) return true;
+    }
+    return false;
+}
+
+// Adds what a path finds at a vertex, in the order of the kernels that it would have gone through. One place in the
+// code adds all of it, as each costs a compiler much.
+void addContributions(uint slot, Vertex vertex) {
+    uint columns[4] = uint[4](vertex.emissionColumn, NONE, NONE, NONE);
+    vec3 values[4] = vec3[4](vertex.emission, vertex.shadowRay.radiance, vec3(0.0), vec3(0.0));
+    if ((vertex.queues & 1u << QUEUE_SHADOW) != 0u && !hidden(args.scene.at[0], vertex.shadowRay))
+        columns[1] = vertex.shadowRay.column;
+    if ((hasCausticMap || hasGlobalMap) && (vertex.queues & (1u << QUEUE_CAUSTIC | 1u << QUEUE_GLOBAL)) != 0u &&
+        gatherFrom(vertex.queues, vertex.query, values[3], values[2])) {
+        if (hasBias) columns[2] = COLUMN_BIAS;
+        columns[3] = vertex.query.column;
+    }
+    [[dont_unroll]] for (uint i = 0u; i < 4u; i++) {
+        uint column = i == 0u ? columns[0] : i == 1u ? columns[1] : i == 2u ? columns[2] : columns[3];
+        vec3 value = i == 0u ? values[0] : i == 1u ? values[1] : i == 2u ? values[2] : values[3];
+        if (column != NONE) addToColumns(args.samples, args.stride, column, slot, value);
     }
 }
 
@@ -31,15 +52,8 @@ void main() {
         queues = vertex.queues;
         path = vertex.path;
         rays++;
-        if (vertex.emissionColumn != NONE)
-            addToColumns(args.samples, args.stride, vertex.emissionColumn, slot, vertex.emission);
-        if ((queues & 1u << QUEUE_SHADOW) != 0u) {
-            ShadowRay ray = vertex.shadowRay;
-            if (!hidden(args.scene.at[0], ray)) addToColumns(args.samples, args.stride, ray.column, slot, ray.radiance);
-            shadowRays++;
-        }
-        if ((hasCausticMap || hasGlobalMap) && (queues & (1u << QUEUE_CAUSTIC | 1u << QUEUE_GLOBAL)) != 0u)
-            addGathered(slot, queues, vertex.query);
+        shadowRays += queues >> QUEUE_SHADOW & 1u;
+        addContributions(slot, vertex);
         if (vertex.split.flags != NONE) args.splits.at[slot] = vertex.split;
     }
     args.flags.at[place] = queues & 1u << QUEUE_CONTINUE;

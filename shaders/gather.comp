@@ -12,6 +12,9 @@ void main() {
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
     if (query.column == NONE) return;
-    gather(args.map, query, args.samples, args.stride, slot);
-    if (args.map.partial != 0u) args.queries.at[slot].column = query.column;
+    vec3 radiance, bias;
+    if (!gather(args.map, query, radiance, bias)) return;
+    if (hasBias) addToColumns(args.samples, args.stride, COLUMN_BIAS, slot, bias);
+    addToColumns(args.samples, args.stride, query.column, slot, radiance);
+    if (args.map.partial != 0u) args.queries.at[slot].column = NONE;
 }

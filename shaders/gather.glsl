@@ -11,22 +11,21 @@
 #include "shared_camera.h"
 #include "shared_film.h"
 
-// Answers the query of a path, unless a map of narrow discs leaves that to the next one; an answer takes the column
-// from the query.
-void gather(PhotonMap map, inout Query query, floatPtr samples, uint stride, uint slot) {
+// Answers the query of a path, unless a map of narrow discs leaves that to the next one. What is added to the samples
+// is `radiance`, and `bias` to those of bias.
+bool gather(PhotonMap map, Query query, out vec3 radiance, out vec3 bias) {
     float radius = hasNearest && map.nearest > 0u ? nearestRadius(map, query, map.nearest) * map.shrink
                                                   : radiusAt(map, query.position);
     if (map.partial != 0u) {
         // What is narrower than a pixel is not seen, and most paths from the eye would miss it.
         radius = radius > 0.0 ? max(radius, map.shrink * query.footprint) : GREATEST;
-        if (radius > map.radius) return;
+        if (radius > map.radius) return false;
     }
     vec3 inner;
     vec3 irradiance = estimateWithin(map, query, radius, inner) * map.photonFlux;
-    if (hasBias)
-        addToColumns(samples, stride, COLUMN_BIAS, slot, 2.0 * query.weight * (irradiance - inner * map.photonFlux));
-    addToColumns(samples, stride, query.column, slot, query.weight * irradiance);
-    query.column = NONE;
+    radiance = query.weight * irradiance;
+    bias = 2.0 * query.weight * (irradiance - inner * map.photonFlux);
+    return true;
 }
 
 #endif

@@ -17,6 +17,6 @@ void main() {
                    loadColumns(args.other, args.pixels, COLUMN_LARGE_BATCHES, pixel), args.weights);
     if (hasBias)
         args.sums.at[COLUMN_SQUARE * args.pixels + pixel] += args.other.at[COLUMN_SQUARE * args.pixels + pixel];
-    for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+    [[dont_unroll]] for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
         args.sums.at[column * args.pixels + pixel] += args.other.at[column * args.pixels + pixel];
 }

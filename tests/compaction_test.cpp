@@ -52,7 +52,9 @@ std::vector<uint> begin(Compaction& compaction, uint count) {
     std::vector<uint> list(count);
     for (uint i = 0; i < count; i++) list[i] = count - 1 - i;
     compaction.list.upload(list);
-    compaction.start(count);
+    Recording recording(testGpu());
+    compaction.start(recording, count);
+    recording.submit();
     return list;
 }
 

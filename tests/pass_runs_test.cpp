@@ -69,17 +69,25 @@ vec3 layerAt(const std::vector<float>& samples, uint layer, std::size_t pixel) {
     return {at(0), at(1), at(2)};
 }
 
+// Takes samples of a pass's pixels from `first` on into a film.
+void take(Film& film, Recording& recording, const std::vector<float>& samples, uint first, uint count) {
+    const Buffer<float> onDevice(testGpu(), "samples", samples);
+    film.add(recording, onDevice, count, first, count);
+    recording.submit();
+}
+
 Film filmOf(PassRange passes, uint blockPixels = 1u << 22) {
     Film film(testGpu(), size, {}, blockPixels);
     const uint pixels = size.x * size.y;
     for (uint pass = passes.begin; pass < passes.end; pass++) {
         const std::vector<float> all = samplesOf(pass);
-        film.begin(pass);
+        Recording recording(testGpu());
+        film.begin(recording, pass);
         for (const auto& [first, end] : {std::pair{0u, 20u}, {20u, pixels}}) { // in two tiles
             std::vector<float> tile;
             for (uint column = 0; column < columns.SAMPLE_COLUMNS; column++)
                 tile.insert(tile.end(), all.begin() + column * pixels + first, all.begin() + column * pixels + end);
-            film.add(Buffer<float>(testGpu(), "samples", tile), end - first, first, end - first);
+            take(film, recording, tile, first, end - first);
         }
         film.end();
     }
@@ -218,8 +226,9 @@ TEST(Noise, IntervalsHoldTheTruthNineTimesOfTen) {
                     const float rough = random.unit(); // and one that does not
                     samples[own.COLUMN_DIRECT * offset.size() + i] = u + 0.3f * rough;
                 }
-                film.begin(pass);
-                film.add(Buffer<float>(testGpu(), "samples", samples), area.x * area.y, 0, area.x * area.y);
+                Recording recording(testGpu());
+                film.begin(recording, pass);
+                take(film, recording, samples, 0, area.x * area.y);
                 film.end();
             }
             const std::vector<Pixel> pixels = film.download();
@@ -255,8 +264,9 @@ TEST(Film, ColumnsThatAreLeftOutAreZeroAndChangeNoOther) {
             std::copy_n(full.begin() + from * pixels, count * pixels, zeroed.begin() + from * pixels);
         }
         for (auto&& [target, samples] : {std::pair<Film*, std::vector<float>*>{&film, &part}, {&all, &zeroed}}) {
-            target->begin(pass);
-            target->add(Buffer<float>(testGpu(), "samples", *samples), pixels, 0, pixels);
+            Recording recording(testGpu());
+            target->begin(recording, pass);
+            take(*target, recording, *samples, 0, pixels);
             target->end();
         }
     }
@@ -270,8 +280,9 @@ TEST(Film, CountsWhatIsNotFiniteAsBlack) {
     values[2 * columns.COLUMN_DIRECT + 2] = 1;
     values[2 * columns.COLUMN_CAUSTIC + 1] = INFINITY;
     for (uint c = 0; c < 3; c++) values[2 * (columns.COLUMN_DIRECT + c) + 1] = 2;
-    film.begin(0);
-    film.add(Buffer<float>(testGpu(), "samples", values), 2, 0, 2);
+    Recording recording(testGpu());
+    film.begin(recording, 0);
+    take(film, recording, values, 0, 2);
     film.end();
     const std::vector<Pixel> pixels = film.download();
     EXPECT_EQ(pixels[0].mean.layers[LAYER_DIRECT], vec3(0));

@@ -76,8 +76,10 @@ Film filmOf(Expected& expected) {
                 samples[(columns.COLUMN_DIRECT + c) * size.x + pixel] = sample[static_cast<int>(c)];
         }
         onDevice.upload(samples);
-        film.begin(pass);
-        film.add(onDevice, size.x, 0, size.x);
+        Recording recording(testGpu());
+        film.begin(recording, pass);
+        film.add(recording, onDevice, size.x, 0, size.x);
+        recording.submit();
         film.end();
     }
     return film;
