@@ -97,7 +97,7 @@ bool RenderThread::close() {
 void RenderThread::run() {
     giveWay();
     try {
-        for (bool busy = true; take(busy);) busy = step();
+        for (bool busy = true; takeRequest(busy);) busy = step();
         if (session && session->job && !request.discard) {
             RenderJob& job = *session->job;
             if (midPass && job.passCount() > 0) job.renderPass();
@@ -113,7 +113,7 @@ void RenderThread::run() {
 }
 
 /// Takes up the request as it is now, or waits for a new one if not busy; false when all is over.
-bool RenderThread::take(bool busy) {
+bool RenderThread::takeRequest(bool busy) {
     std::unique_lock lock(mutex);
     const auto before = Clock::now();
     changed.wait(lock, [&] { return busy || wanted != request; });

@@ -45,7 +45,7 @@ private:
     class Interruptible;
 
     void run();
-    bool take(bool busy);
+    bool takeRequest(bool busy);
     bool step();
     void load();
     void adopt(std::unique_ptr<Session> next);

@@ -68,13 +68,8 @@ void Viewer::takeEvents() {
 
 /// The point that is seen at a place of the film becomes the target.
 void Viewer::focusAt(dvec2 place) {
-    if (!picture || glm::any(glm::lessThan(place, dvec2(0))) || glm::any(glm::greaterThanEqual(place, dvec2(1))))
-        return;
-    const uvec2 pixel(place * dvec2(picture->size));
-    const Sample& sample = picture->pixels[std::size_t(pixel.y) * picture->size.x + pixel.x].mean;
-    if (!(sample.covered > 0)) return;
-    const vec3 point = pointAt(picture->view, picture->size, place, double(sample.depth) / sample.covered);
-    choices.request.view = focus(viewNow(), point);
+    if (const auto depth = picture ? depthAt(*picture, place) : std::nullopt)
+        choices.request.view = focus(viewNow(), pointAt(picture->view, picture->size, place, *depth));
 }
 
 /// While the camera moves the thread makes previews; one that goes back to the scene's is at rest at once.
