@@ -72,7 +72,7 @@ void Viewer::focusAt(dvec2 place) {
         choices.request.view = focus(viewNow(), pointAt(picture->view, picture->size, place, *depth));
 }
 
-/// While the camera moves the thread makes previews; one that goes back to the scene's is at rest at once.
+/// The thread makes previews while the camera moves; one that was reset is at rest at once.
 void Viewer::updateMotion() {
     RenderRequest& request = choices.request;
     if (request.view && request.view != lastView) lastMove = Clock::now();
