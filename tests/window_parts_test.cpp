@@ -138,19 +138,19 @@ TEST(Tone, LinearIsThePng) {
     }
     const std::vector<Pixel> pixels = pixelsOf(colors);
     for (const float exposure : {0.0f, -2.3f, 5.0f})
-        EXPECT_TRUE(develop(pixels, {.exposure = exposure}) == develop(pixels, exposure));
+        EXPECT_TRUE(toneMap(pixels, {.exposure = exposure}) == develop(pixels, exposure));
 }
 
 TEST(Tone, CurvesGoFromBlackToWhite) {
     for (const ToneCurve curve : {ToneCurve::linear, ToneCurve::reinhard, ToneCurve::filmic}) {
         std::vector<vec3> greys;
         for (int i = 0; i <= 400; i++) greys.push_back(vec3(0.01f * float(i)));
-        const std::vector<uint> bytes = develop(pixelsOf(greys), {.curve = curve});
+        const std::vector<uint> bytes = toneMap(pixelsOf(greys), {.curve = curve});
         EXPECT_EQ(bytes[0], 0xff000000u);
         EXPECT_TRUE(std::ranges::is_sorted(bytes));
         EXPECT_GE(bytes[400] & 255, 240u);
     }
-    EXPECT_EQ(develop(pixelsOf({vec3(4)}), {.curve = ToneCurve::reinhard})[0], 0xffffffffu);
+    EXPECT_EQ(toneMap(pixelsOf({vec3(4)}), {.curve = ToneCurve::reinhard})[0], 0xffffffffu);
 }
 
 TEST(Tone, LayersAreWhatTheyAreCalled) {
@@ -163,8 +163,8 @@ TEST(Tone, LayersAreWhatTheyAreCalled) {
     const uint red = 0xff0000ff, green = 0xff00ff00, blue = 0xffff0000;
     const uint expected[]{0xffffffff, red, green, blue, red, green, red | blue, 0xff0080ff, red, green};
     for (uint layer = 0; layer < shownLayers.size(); layer++)
-        EXPECT_EQ(develop(std::vector{pixel}, {.layer = layer})[0], expected[layer]) << shownLayers[layer];
-    EXPECT_EQ(develop(std::vector{pixel}, {.layer = SHOW_ALBEDO, .exposure = -8})[0], red | blue);
+        EXPECT_EQ(toneMap(std::vector{pixel}, {.layer = layer})[0], expected[layer]) << shownLayers[layer];
+    EXPECT_EQ(toneMap(std::vector{pixel}, {.layer = SHOW_ALBEDO, .exposure = -8})[0], red | blue);
 }
 
 TEST(SceneWatch, SeesTheSceneAndItsMeshes) {

@@ -134,7 +134,7 @@ def moves_the_camera(environment: dict[str, str], folder: Path) -> None:
 
 
 def reloads_the_scene(environment: dict[str, str], folder: Path) -> None:
-    """An edited scene is shown; a broken one leaves the picture."""
+    """An edited scene is shown, from where the camera is; a broken one leaves the picture."""
     scene = folder / "edited.json"
     text = BOX.read_text()
     scene.write_text(text)
@@ -152,6 +152,15 @@ def reloads_the_scene(environment: dict[str, str], folder: Path) -> None:
         shown.await_event("reload")
         expected = render(scene, folder, *SMALL, "--passes", "2")
         assert np.abs(png_of(expected) - before).max() > 50
+        shown.shows(png_of(expected), corner)
+
+        shown.drag((corner[0] + 80, corner[1] + 60), 10, (2, 1))
+        shown.await_passes(2)
+        camera = shown.camera()
+        scene.write_text(text)
+        shown.await_event("reload", 2)
+        shown.await_passes(2)
+        expected = render(with_camera(scene, camera, folder), folder, *SMALL, "--passes", "2")
         shown.shows(png_of(expected), corner)
         shown.close()
         expect_same_files(shown.output, expected)

@@ -29,6 +29,8 @@ struct SettingsOptions {
     std::optional<uint> seed;
     std::optional<bool> allFeatures;
 
+    bool operator==(const SettingsOptions&) const = default;
+
     /// A scene's settings with these over them. Throws InputError if --map or --show meets an integrator other than
     /// photon-map.
     Settings over(Settings sceneSettings) const;

@@ -23,41 +23,13 @@ struct FlyKey {
 const FlyKey flyKeys[]{{GLFW_KEY_W, {0, 0, 1}}, {GLFW_KEY_S, {0, 0, -1}}, {GLFW_KEY_A, {-1, 0, 0}},
                        {GLFW_KEY_D, {1, 0, 0}}, {GLFW_KEY_E, {0, 1, 0}},  {GLFW_KEY_Q, {0, -1, 0}}};
 
-Action actionOf(int key, bool control, bool shift) {
-    if (control)
-        return key == GLFW_KEY_S   ? Action::save
-               : key == GLFW_KEY_C ? Action::copyCamera
-               : key == GLFW_KEY_Q ? Action::quit
-                                   : Action::none;
-    switch (key) {
-    case GLFW_KEY_SPACE:
-        return Action::pause;
-    case GLFW_KEY_TAB:
-        return Action::togglePanel;
-    case GLFW_KEY_HOME:
-    case GLFW_KEY_R:
-        return Action::reset;
-    case GLFW_KEY_C:
-        return Action::copyCamera;
-    case GLFW_KEY_P:
-        return Action::togglePhotons;
-    case GLFW_KEY_G:
-        return Action::toggleFollow;
-    case GLFW_KEY_T:
-        return Action::nextCurve;
-    case GLFW_KEY_X:
-        return shift ? Action::darker : Action::brighter;
-    case GLFW_KEY_Z:
-        return Action::usualExposure;
-    default:
-        return Action::none;
-    }
-}
-
 /// Arrows orbit, or pan with shift; plus and minus dolly.
-bool moveByKey(int key, bool shift, View& view) {
+bool moveByKey(const Event& event, View& view) {
+    const int key = event.code;
+    if (event.modifiers & GLFW_MOD_CONTROL) return false;
     const dvec2 step{(key == GLFW_KEY_RIGHT) - (key == GLFW_KEY_LEFT), (key == GLFW_KEY_UP) - (key == GLFW_KEY_DOWN)};
-    if (step != dvec2(0)) view = shift ? pan(view, 0.05 * step) : orbit(view, -keyAngle * step);
+    if (step != dvec2(0))
+        view = event.modifiers & GLFW_MOD_SHIFT ? pan(view, 0.05 * step) : orbit(view, -keyAngle * step);
     const bool nearer = key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD,
                farther = key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT;
     if (nearer || farther) view = dolly(view, nearer ? dollyPerStep : 1 / dollyPerStep);
@@ -86,38 +58,52 @@ const std::vector<KeyHelp> keyHelp{
     {"Tab", "hide or show the panel"},
     {"Ctrl + Q", "close and save"}};
 
-void Controls::key(const Event& event, View& view) {
-    const bool control = event.modifiers & GLFW_MOD_CONTROL, shift = event.modifiers & GLFW_MOD_SHIFT;
-    if (event.action == GLFW_RELEASE || (!control && moveByKey(event.code, shift, view)) || event.action != GLFW_PRESS)
-        return;
-    if (const Action action = actionOf(event.code, control, shift); action != Action::none) asked.push_back(action);
-    if (control) return;
-    if (event.code >= GLFW_KEY_0 && event.code <= GLFW_KEY_9)
-        chosen = event.code == GLFW_KEY_0 ? 9u : uint(event.code - GLFW_KEY_1);
-    if (event.code == GLFW_KEY_F) looksAbout = !looksAbout;
-    for (const FlyKey& fly : flyKeys)
-        if (event.code == fly.key) view = vkpm::fly(view, fly.direction * flySpeed * nudge);
-}
-
-void Controls::press(const Event& event, const Scenery& scenery) {
-    if (event.action == GLFW_RELEASE) {
-        if (dragging == event.code) dragging.reset();
+/// Keys that act once: pressed, not repeated or let go.
+void Controls::key(const Event& event, const Scenery& scenery, View& view, Choices& choices) const {
+    const int code = event.code;
+    RenderRequest& request = choices.request;
+    if (event.modifiers & GLFW_MOD_CONTROL) {
+        if (code == GLFW_KEY_S) request.saves++;
+        if (code == GLFW_KEY_C) choices.copiesCamera = true;
+        if (code == GLFW_KEY_Q) choices.quits = true;
         return;
     }
-    if (!scenery.isPicture(event.position)) return;
+    if (code == GLFW_KEY_SPACE) request.paused = !request.paused;
+    if (code == GLFW_KEY_P) request.photons = !request.photons;
+    if (code == GLFW_KEY_HOME || code == GLFW_KEY_R) view = scenery.view;
+    if (code == GLFW_KEY_TAB) choices.panel = !choices.panel;
+    if (code == GLFW_KEY_G) choices.follows = !choices.follows;
+    if (code == GLFW_KEY_F) choices.looksAbout = !choices.looksAbout;
+    if (code == GLFW_KEY_C) choices.copiesCamera = true;
+    if (code == GLFW_KEY_T) choices.tone.curve = ToneCurve((int(choices.tone.curve) + 1) % int(toneCurveNames.size()));
+    if (code == GLFW_KEY_X) choices.tone.exposure += event.modifiers & GLFW_MOD_SHIFT ? -0.25f : 0.25f;
+    if (code == GLFW_KEY_Z) choices.tone.exposure = scenery.exposure;
+    if (code >= GLFW_KEY_0 && code <= GLFW_KEY_9)
+        choices.tone.layer = code == GLFW_KEY_0 ? 9u : uint(code - GLFW_KEY_1);
+    for (const FlyKey& fly : flyKeys)
+        if (code == fly.key) view = vkpm::fly(view, fly.direction * flySpeed * nudge);
+}
+
+/// Begins or ends a drag. Returns the place of the film if it is the second click of a double click.
+std::optional<dvec2> Controls::press(const Event& event, const Scenery& scenery) {
+    if (event.action == GLFW_RELEASE) {
+        if (dragging == event.code) dragging.reset();
+        return {};
+    }
+    if (!scenery.isPicture(event.position)) return {};
     if (!dragging) dragging = event.code;
     modifiers = event.modifiers;
     pointer = event.position;
-    if (event.code != GLFW_MOUSE_BUTTON_LEFT) return;
+    if (event.code != GLFW_MOUSE_BUTTON_LEFT) return {};
     const bool twice = glfwGetTime() - lastPress < doubleClick && glm::distance(lastPlace, event.position) < still;
     lastPress = twice ? -1 : glfwGetTime();
     lastPlace = event.position;
-    if (twice && scenery.picture.size.x > 0)
-        clicked = (event.position - dvec2(scenery.picture.corner)) / dvec2(scenery.picture.size);
+    if (!twice || scenery.picture.size.x <= 0) return {};
+    return (event.position - dvec2(scenery.picture.corner)) / dvec2(scenery.picture.size);
 }
 
 /// Shift pans and Ctrl dollies with any button, as in Blender; the right button pans, as in viewers of glTF.
-void Controls::drag(const Event& event, const Scenery& scenery, View& view) {
+void Controls::drag(const Event& event, const Scenery& scenery, bool looksAbout, View& view) {
     const dvec2 moved = (event.position - pointer) / double(std::max(scenery.picture.size.y, 1));
     pointer = event.position;
     if (!dragging || moved == dvec2(0)) return;
@@ -127,27 +113,8 @@ void Controls::drag(const Event& event, const Scenery& scenery, View& view) {
     else view = orbit(view, orbitPerHeight * dvec2(moved.x, -moved.y));
 }
 
-void Controls::take(const std::vector<Event>& events, const Scenery& scenery, View& view) {
-    for (const Event& event : events) {
-        switch (event.kind) {
-        case Event::Kind::key:
-            hold(event, scenery);
-            if (!scenery.typing) key(event, view);
-            break;
-        case Event::Kind::button:
-            press(event, scenery);
-            break;
-        case Event::Kind::move:
-            drag(event, scenery, view);
-            break;
-        case Event::Kind::scroll:
-            if (scenery.isPicture(event.position)) view = dolly(view, std::pow(dollyPerStep, event.scroll));
-            break;
-        }
-    }
-}
-
-/// Keys that fly, until they are let go; those that are part of a shortcut do not.
+/// Keys that fly, until they are let go; those that are part of a shortcut do not. A window that loses the keys to
+/// another lets all go.
 void Controls::hold(const Event& event, const Scenery& scenery) {
     fast = event.modifiers & GLFW_MOD_SHIFT;
     for (const FlyKey& fly : flyKeys) {
@@ -158,15 +125,40 @@ void Controls::hold(const Event& event, const Scenery& scenery) {
     }
 }
 
-bool Controls::flying() const { return !held.empty(); }
-
-void Controls::release() { held.clear(); }
-
 void Controls::fly(double seconds, View& view) const {
     dvec3 direction{0};
     for (const FlyKey& fly : flyKeys)
         if (std::ranges::find(held, fly.key) != held.end()) direction += fly.direction;
     if (direction != dvec3(0)) view = vkpm::fly(view, direction * ((fast ? 4 : 1) * flySpeed * std::min(seconds, 0.1)));
+}
+
+std::optional<dvec2> Controls::take(const std::vector<Event>& events, const Scenery& scenery, double seconds,
+                                    Choices& choices) {
+    std::optional<dvec2> clicked;
+    std::optional<View>& asked = choices.request.view;
+    const View before = asked.value_or(scenery.view);
+    View view = before;
+    for (const Event& event : events) {
+        switch (event.kind) {
+        case Event::Kind::key:
+            hold(event, scenery);
+            if (scenery.typing || event.action == GLFW_RELEASE || moveByKey(event, view)) break;
+            if (event.action == GLFW_PRESS) key(event, scenery, view, choices);
+            break;
+        case Event::Kind::button:
+            if (const auto place = press(event, scenery)) clicked = place;
+            break;
+        case Event::Kind::move:
+            drag(event, scenery, choices.looksAbout, view);
+            break;
+        case Event::Kind::scroll:
+            if (scenery.isPicture(event.position)) view = dolly(view, std::pow(dollyPerStep, event.scroll));
+            break;
+        }
+    }
+    fly(seconds, view);
+    if (view != before) asked = view == scenery.view ? std::nullopt : std::optional(view);
+    return clicked;
 }
 
 } // namespace vkpm

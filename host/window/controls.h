@@ -1,28 +1,24 @@
 /// Keys and mouse to what they mean.
 #pragma once
+#include "window/picture.h"
 #include "window/tone.h"
 #include "window/view_camera.h"
 #include "window/window.h"
-#include <utility>
 
 namespace vkpm {
 
-/// What the user may ask for besides moving the camera.
-enum class Action {
-    none,
-    pause,
-    togglePanel,
-    save,
-    reset,
-    copyCamera,
-    togglePhotons,
-    toggleFollow,
-    nextCurve,
-    brighter,
-    darker,
-    usualExposure,
-    usualSettings,
-    quit
+/// What the user changes, by keys, mouse or the panel.
+struct Choices {
+    RenderRequest request{};
+    SettingsOptions settings{}; // those of the request, once no slider is held
+    Tone tone{};
+    bool panel = true;
+    bool follows = false;    // the film has the size of the window
+    bool looksAbout = false; // dragging turns the head in place of orbiting
+    bool copiesCamera = false;
+    bool quits = false;
+
+    bool operator==(const Choices&) const = default;
 };
 
 /// A line of the table of keys, in the panel and in host/window/README.md.
@@ -32,12 +28,14 @@ struct KeyHelp {
 };
 extern const std::vector<KeyHelp> keyHelp;
 
-/// Where the picture is, and what of mouse and keys is not its own.
+/// Where the picture is, what of mouse and keys is not its own, and what is shown unless the user changes it.
 struct Scenery {
     Rectangle picture{};
     double panelLeft = 0; // where the panel begins
     bool popup = false;   // a list is open over all
     bool typing = false;  // a text field has the keys
+    View view{};
+    float exposure = 0;
 
     bool isPicture(dvec2 pointer) const { return !popup && pointer.x < panelLeft; }
 };
@@ -45,27 +43,19 @@ struct Scenery {
 /// Follows the events of a window; keeps what is held between them.
 class Controls {
 public:
-    /// Takes the events; moves the view.
-    void take(const std::vector<Event>& events, const Scenery& scenery, View& view);
-    /// Flies by the keys that are held, for so many seconds.
-    void fly(double seconds, View& view) const;
+    /// Takes the events, and flies by the keys that are held, for so many seconds. Returns the place of the film that
+    /// was double-clicked, if any.
+    std::optional<dvec2> take(const std::vector<Event>& events, const Scenery& scenery, double seconds,
+                              Choices& choices);
     /// Whether a key that flies is held.
-    bool flying() const;
-    /// No key is held any more: the window has lost its keys to another.
-    void release();
-
-    /// Since the last call: actions in their order, a layer that was chosen, places of the film that were
-    /// double-clicked.
-    std::vector<Action> actions() { return std::exchange(asked, {}); }
-    std::optional<uint> layer() { return std::exchange(chosen, {}); }
-    std::optional<dvec2> focus() { return std::exchange(clicked, {}); }
-    bool looksAbout = false; // dragging turns the head in place of orbiting
+    bool flying() const { return !held.empty(); }
 
 private:
     void hold(const Event& event, const Scenery& scenery);
-    void press(const Event& event, const Scenery& scenery);
-    void key(const Event& event, View& view);
-    void drag(const Event& event, const Scenery& scenery, View& view);
+    void key(const Event& event, const Scenery& scenery, View& view, Choices& choices) const;
+    std::optional<dvec2> press(const Event& event, const Scenery& scenery);
+    void drag(const Event& event, const Scenery& scenery, bool looksAbout, View& view);
+    void fly(double seconds, View& view) const;
 
     std::optional<int> dragging; // button
     std::vector<int> held;       // keys that fly
@@ -74,9 +64,6 @@ private:
     dvec2 pointer{0};
     double lastPress = -1;
     dvec2 lastPlace{0};
-    std::vector<Action> asked;
-    std::optional<uint> chosen;
-    std::optional<dvec2> clicked;
 };
 
 } // namespace vkpm

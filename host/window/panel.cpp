@@ -54,20 +54,20 @@ std::string radiusText(const std::optional<GatherRadii>& radii, float factor) {
 void showProgress(const PanelInput& input) {
     const RenderState& s = input.state;
     const std::string of = s.passesWanted == NONE ? "" : fmt::format(" of {}", s.passesWanted);
-    row("passes", fmt::format("{}{}, {}", s.passes, of, s.activity));
+    row("passes", fmt::format("{}{}, {}", s.passes, of, activityNames[std::size_t(s.activity)]));
     row("time", timeText(s.seconds));
     const double seconds = std::max(s.seconds, 1e-3);
     row("rays", fmt::format("{}/s", short_(double(s.rays) / seconds)));
     row("photons", fmt::format("{}/s", short_(double(s.photons) / seconds)));
     row("radius", radiusText(s.globalRadii, s.radiusFactor));
     row("of caustics", radiusText(s.causticRadii, s.radiusFactor));
-    const bool draft = input.draftsPerSecond > 0 && input.picture;
-    const uvec2 size = draft ? input.picture->size : s.settings.size;
-    row("film",
-        fmt::format("{} x {}{}", size.x, size.y, draft ? fmt::format(", {:.0f} frames/s", input.draftsPerSecond) : ""));
+    const double frames = input.previewsPerSecond;
+    row("film", fmt::format("{} x {}{}", input.film.x, input.film.y,
+                            frames > 0 ? fmt::format(", {:.0f} frames/s", frames) : ""));
     if (!input.about.empty()) note(input.about);
     for (const std::string& text : s.warnings) note(text, warning);
-    if (!s.problem.empty()) note(s.problem, warning);
+    for (const std::string& text : {s.problem, s.refusal})
+        if (!text.empty()) note(text, warning);
 }
 
 void showError(const RenderState& s) {
@@ -80,7 +80,7 @@ void showError(const RenderState& s) {
     drawErrorCurve(s.errors, 6.5f * ImGui::GetFontSize());
 }
 
-void chooseLayer(PanelChoices& choices) {
+void chooseLayer(Choices& choices) {
     if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (ImGui::BeginTable("layers", 2)) {
         for (uint i = 0; i < shownLayers.size(); i++) { // down the left column, then the right
@@ -98,64 +98,58 @@ void chooseLayer(PanelChoices& choices) {
     if (ImGui::Combo("curve", &curve, toneCurveNames.data(), int(toneCurveNames.size())))
         choices.tone.curve = ToneCurve(curve);
     note("Files keep the scene's exposure, without a curve.");
-    ImGui::Checkbox("photons as points", &choices.photons);
+    ImGui::Checkbox("photons as points", &choices.request.photons);
     ImGui::Checkbox("film follows the window", &choices.follows);
 }
 
-void chooseCamera(PanelChoices& choices) {
+void chooseCamera(Choices& choices) {
     if (!ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    if (ImGui::Button("copy as JSON")) choices.actions.push_back(Action::copyCamera);
+    if (ImGui::Button("copy as JSON")) choices.copiesCamera = true;
     ImGui::SameLine();
-    if (ImGui::Button("reset")) choices.actions.push_back(Action::reset);
+    if (ImGui::Button("reset")) choices.request.view.reset();
     ImGui::SameLine();
     ImGui::Checkbox("look about", &choices.looksAbout);
 }
 
-/// A slider for a count, by its logarithm; what it says counts when it is let go.
-void countSlider(const char* name, uint now, int low, int high, std::optional<uint>& option) {
-    static std::map<std::string, int> held;
-    int value = held.contains(name) ? held[name] : int(now);
+/// A slider for a value that is as the scene has it unless it is given.
+void slider(const char* name, std::optional<uint>& given, uint now, int low, int high) {
+    int value = int(given.value_or(now));
     if (ImGui::SliderInt(name, &value, low, high, "%d", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
-        held[name] = value;
-    if (ImGui::IsItemDeactivatedAfterEdit()) option = uint(value);
-    if (!ImGui::IsItemActive()) held.erase(name);
+        given = uint(value);
 }
 
-void numberSlider(const char* name, float now, float low, float high, bool logarithmic, std::optional<float>& option) {
-    static std::map<std::string, float> held;
-    float value = held.contains(name) ? held[name] : now;
-    const auto flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    if (ImGui::SliderFloat(name, &value, low, high, "%.4g", flags)) held[name] = value;
-    if (ImGui::IsItemDeactivatedAfterEdit()) option = value;
-    if (!ImGui::IsItemActive()) held.erase(name);
+void slider(const char* name, std::optional<float>& given, float now, float low, float high, ImGuiSliderFlags flags) {
+    float value = given.value_or(now);
+    if (ImGui::SliderFloat(name, &value, low, high, "%.4g", flags | ImGuiSliderFlags_AlwaysClamp)) given = value;
 }
 
 /// A radius that is measured unless it is given.
-void radiusSlider(const char* name, const std::optional<GatherRadii>& radii, const std::optional<float>& given,
-                  std::optional<float>& option) {
+void radiusSlider(const char* name, std::optional<float>& given, const std::optional<float>& now,
+                  const std::optional<GatherRadii>& radii) {
     if (!radii) return;
-    numberSlider(name, given.value_or(radii->typical), radii->greatest / 50, radii->greatest * 4, true, option);
-    if (given) return;
+    slider(name, given, now.value_or(radii->typical), radii->greatest / 50, radii->greatest * 4,
+           ImGuiSliderFlags_Logarithmic);
+    if (now) return;
     ImGui::SameLine();
     ImGui::TextColored(dim, "measured");
 }
 
-void chooseSettings(const RenderState& state, PanelChoices& choices) {
+void chooseSettings(const PanelInput& input, Choices& choices) {
     if (!ImGui::CollapsingHeader("Settings")) return;
-    const Settings& s = state.settings;
-    RenderOptions& o = choices.options;
+    const Settings& now = input.state.settings;
+    SettingsOptions& given = choices.settings;
     ImGui::PushItemWidth(0.42f * ImGui::GetWindowWidth());
-    countSlider("photons", s.photons, 100, 10'000'000, o.photons);
-    countSlider("caustic photons", s.causticPhotons, 100, 10'000'000, o.causticPhotons);
-    countSlider("gather rays", s.gatherRays, 1, 64, o.gatherRays);
-    radiusSlider("radius", state.globalRadii, s.radius, o.radius);
-    radiusSlider("caustic radius", state.causticRadii, s.causticRadius, o.causticRadius);
-    numberSlider("alpha", s.alpha, 0.05f, 1, false, o.alpha);
-    int kernel = int(s.kernel);
-    if (ImGui::Combo("kernel", &kernel, "constant\0cone\0gauss\0epanechnikov\0")) o.kernel = uint(kernel);
+    slider("photons", given.photons, now.photons, 100, 10'000'000);
+    slider("caustic photons", given.causticPhotons, now.causticPhotons, 100, 10'000'000);
+    slider("gather rays", given.gatherRays, now.gatherRays, 1, 64);
+    radiusSlider("radius", given.radius, now.radius, input.state.globalRadii);
+    radiusSlider("caustic radius", given.causticRadius, now.causticRadius, input.state.causticRadii);
+    slider("alpha", given.alpha, now.alpha, 0.05f, 1, 0);
+    int kernel = int(given.kernel.value_or(now.kernel));
+    if (ImGui::Combo("kernel", &kernel, kernelNames.data(), int(kernelNames.size()))) given.kernel = uint(kernel);
     ImGui::PopItemWidth();
     note("A change begins anew.");
-    if (ImGui::Button("as at the start")) choices.actions.push_back(Action::usualSettings);
+    if (ImGui::Button("as at the start")) given = input.usual;
 }
 
 void showLeftOut(const RenderState& state) {
@@ -175,7 +169,7 @@ void showKeys() {
 
 int panelWidth(float scale) { return int(width * scale); }
 
-void drawPanel(const PanelInput& input, PanelChoices& choices) {
+void drawPanel(const PanelInput& input, Choices& choices) {
     const float wide = float(panelWidth(input.scale));
     ImGui::SetNextWindowPos({float(input.window.x) - wide, 0});
     ImGui::SetNextWindowSize({wide, float(input.window.y)});
@@ -183,9 +177,10 @@ void drawPanel(const PanelInput& input, PanelChoices& choices) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoNav);
     ImGui::PushItemWidth(0.6f * ImGui::GetWindowWidth());
-    if (ImGui::Button(choices.paused ? "go on" : "pause", {0.3f * wide, 0})) choices.actions.push_back(Action::pause);
+    bool& paused = choices.request.paused;
+    if (ImGui::Button(paused ? "go on" : "pause", {0.3f * wide, 0})) paused = !paused;
     ImGui::SameLine();
-    if (ImGui::Button("save EXR and PNG")) choices.actions.push_back(Action::save);
+    if (ImGui::Button("save EXR and PNG")) choices.request.saves++;
     if (!input.state.saved.empty()) note(input.state.saved);
     ImGui::Spacing();
     showProgress(input);
@@ -193,7 +188,7 @@ void drawPanel(const PanelInput& input, PanelChoices& choices) {
     showError(input.state);
     chooseLayer(choices);
     chooseCamera(choices);
-    chooseSettings(input.state, choices);
+    chooseSettings(input, choices);
     showLeftOut(input.state);
     showKeys();
     ImGui::PopItemWidth();

@@ -9,8 +9,18 @@ namespace vkpm {
 namespace {
 
 const ImU32 gridColor = IM_COL32(255, 255, 255, 28), textColor = IM_COL32(170, 174, 182, 255);
-const ImU32 errorColor = IM_COL32(110, 180, 255, 255), noiseColor = IM_COL32(150, 150, 150, 255),
-            biasColor = IM_COL32(240, 160, 90, 255);
+
+/// A curve, with its name in the legend.
+struct Curve {
+    const char* name;
+    double ErrorEstimate::*value;
+    ImU32 color;
+    float thickness;
+    float legend; // place of the name, in letters
+};
+const Curve curves[]{{"bias", &ErrorEstimate::bias, IM_COL32(240, 160, 90, 255), 1, 7.5f},
+                     {"noise", &ErrorEstimate::noise, IM_COL32(150, 150, 150, 255), 1, 3.5f},
+                     {"error", &ErrorEstimate::error, IM_COL32(110, 180, 255, 255), 2, 0}};
 
 /// Decades from a value to another along a side of a drawing.
 struct Axis {
@@ -75,27 +85,18 @@ void drawErrorCurve(const std::vector<ErrorPoint>& errors, float height) {
     });
 
     draw.PushClipRect({left, top}, {right, bottom}, true);
-    const auto curve = [&](ImU32 color, auto value, float thickness) {
+    for (const Curve& curve : curves) {
         std::vector<ImVec2> points;
-        for (const ErrorPoint& point : errors) points.push_back({x.at(point.seconds), y.at(value(point.error))});
-        draw.AddPolyline(points.data(), int(points.size()), color, 0, thickness);
-        for (const ImVec2& point : points) draw.AddCircleFilled(point, 1.2f * thickness, color);
-    };
-    curve(
-        biasColor, [](const ErrorEstimate& e) { return e.bias; }, 1.0f);
-    curve(
-        noiseColor, [](const ErrorEstimate& e) { return e.noise; }, 1.0f);
-    curve(
-        errorColor, [](const ErrorEstimate& e) { return e.error; }, 2.0f);
+        for (const ErrorPoint& point : errors) points.push_back({x.at(point.seconds), y.at(point.error.*curve.value)});
+        draw.AddPolyline(points.data(), int(points.size()), curve.color, 0, curve.thickness);
+        for (const ImVec2& point : points) draw.AddCircleFilled(point, 1.2f * curve.thickness, curve.color);
+        draw.AddText({right - (11 - curve.legend) * font, top}, curve.color, curve.name);
+    }
     draw.PopClipRect();
-    const ImVec2 legend{right - 11 * font, top};
-    draw.AddText(legend, errorColor, "error");
-    draw.AddText({legend.x + 3.5f * font, top}, noiseColor, "noise");
-    draw.AddText({legend.x + 7.5f * font, top}, biasColor, "bias");
 }
 
-/// Those that the picture's own depth does not hide; a photon on a surface may be off its depth by some roughness of
-/// pixels.
+/// Photons that the picture's own depth does not hide. On a slanted surface depth varies within a pixel: hence the
+/// tolerance.
 void drawPhotons(const Picture& picture, const Rectangle& where, float scale) {
     const double tolerance = 0.02;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -104,13 +105,8 @@ void drawPhotons(const Picture& picture, const Rectangle& where, float scale) {
         brightest = std::max({brightest, photon.color.x, photon.color.y, photon.color.z});
     for (const PhotonPoint& photon : picture.photons) {
         const auto seen = seenAt(picture.view, picture.size, photon.position);
-        if (!seen || glm::any(glm::lessThan(seen->place, dvec2(0))) ||
-            glm::any(glm::greaterThanEqual(seen->place, dvec2(1))))
-            continue;
-        const uvec2 pixel(seen->place * dvec2(picture.size));
-        const Sample& sample = picture.pixels[std::size_t(pixel.y) * picture.size.x + pixel.x].mean;
-        const double depth = sample.covered > 0 ? double(sample.depth) / sample.covered : 0;
-        if (std::abs(seen->depth - depth) > tolerance * depth) continue;
+        const std::optional<double> depth = seen ? depthAt(picture, seen->place) : std::nullopt;
+        if (!depth || std::abs(seen->depth - *depth) > tolerance * *depth) continue;
         const dvec2 at = dvec2(where.corner) + seen->place * dvec2(where.size);
         const vec3 c = glm::sqrt(photon.color / brightest) * 255.0f;
         draw.AddRectFilled({float(at.x), float(at.y)}, {float(at.x) + 1.5f * scale, float(at.y) + 1.5f * scale},

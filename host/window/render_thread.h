@@ -1,27 +1,14 @@
-/// The thread that renders for a window: it takes wishes, and gives pictures.
+/// The thread that renders for a window: it takes requests, and gives pictures.
 #pragma once
 #include "job/render_job.h"
-#include "window/draft.h"
-#include "window/picture.h"
+#include "window/preview.h"
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <thread>
 
 namespace vkpm {
-
-/// What the window wants; the thread sees to it as soon as it can.
-struct Wishes {
-    RenderOptions options{};    // the command line's, with the panel's values over them
-    std::optional<View> view{}; // absent: the scene's
-    bool moving = false;        // drafts of the view, until it rests
-    bool paused = false;
-    bool photons = false; // pictures come with photons
-    uint reloads = 0;     // how often the scene's file has changed,
-    uint saves = 0;       // and a file was asked for
-    bool close = false;
-    bool discard = false; // without saving
-};
 
 /// A scene with settings, and what renders it. The next one is made before this one is let go, so that what cannot be
 /// rendered costs no passes.
@@ -31,8 +18,9 @@ struct Session {
     Settings settings = options.settingsOf(scene.settings);
     std::string loadedText = scene.text; // as the file has them
     View loadedView = scene.view;
+    std::optional<View> view{}; // as requested; absent: the scene's
     std::optional<RenderJob> job{};
-    std::optional<Draft> draft{};
+    std::optional<Preview> preview{};
 };
 
 class RenderThread {
@@ -41,11 +29,8 @@ public:
     RenderThread(const RenderOptions& options, EventLog& log, std::function<void()> wake);
     ~RenderThread();
 
-    /// Changes the wishes; a pass that they make useless is left.
-    void wish(const std::function<void(Wishes&)>& change);
-    const Wishes& wishes() const { return wanted; } // of the thread that wishes
-
-    std::shared_ptr<const Picture> picture() const;
+    /// Replaces the request; a pass that this makes useless is left.
+    void ask(const RenderRequest& next);
     RenderState state() const;
     /// The film's size, if it is known within so many seconds.
     std::optional<uvec2> waitForSize(double seconds);
@@ -57,70 +42,55 @@ public:
     bool close();
 
 private:
+    class Interruptible;
+
     void run();
+    bool takeRequest(bool busy);
     bool step();
-    bool discards() const;
-    Wishes take();
-    bool load(const Wishes& wish);
+    void load();
     void adopt(std::unique_ptr<Session> next);
-    void openDevice();
-    void construct(Session& wanted);
+    bool startOver();
+    void construct(Session& target);
     void begin();
     void beginAnew();
-    void tell(const Wishes& wish);
-    bool follow(const Wishes& wish);
-    void startOver(const Wishes& wish);
-    bool fits(uvec2 size);
-    void takeView(const Wishes& wish, Session& taken);
-    void drawDraft(const Wishes& wish);
+    void follow();
+    std::string refusalOf(uvec2 size) const;
+    void takeView(Session& target) const;
+    RenderOptions options() const;
+    bool showPreview();
     bool advance();
-    bool saveIfAsked(const Wishes& wish);
-    bool interruptible(bool allowed);
-    void endLastPass();
+    bool saveIfAsked();
+    bool publishIfDue();
     void publish();
-    void estimate(const Picture& shown);
-    void showPhotons(Picture& shown) const;
-    void save(uint saves);
-    void report(const char* activity);
-    void saySo(std::string problem);
-    void recover(const std::exception& error);
+    void update(Activity activity);
+    bool recover(const std::exception& error);
 
     // Shared, under the mutex.
     mutable std::mutex mutex;
     std::condition_variable changed;
-    Wishes wanted;
-    std::uint64_t version = 1;
-    bool leavable = false; // the thread is in a pass
-    bool sizeKnown = false;
-    bool over = false;
-    std::shared_ptr<const Picture> latest;
+    RenderRequest wanted; // written by the thread that asks alone
     RenderState shared;
+    bool leavable = false; // a new request may end what the device is doing
+    bool over = false;
     std::atomic<bool> cancel{false};
 
     // The thread's own.
-    std::function<void()> wake;
+    RenderOptions commandLine;
     EventLog& log;
+    std::function<void()> wake;
     Clock::time_point start = Clock::now();
-    std::uint64_t handled = 0; // version of the wishes
-    std::optional<View> view;  // wished, absent: the scene's
-    uint reloaded = 0;
-    uint saved = 0;
+    RenderRequest request; // that it follows now
+    RenderState own;
     std::optional<Gpu> gpu;
     std::unique_ptr<Session> session;
-    std::optional<uvec2> refusedSize; // of a film
-    bool refused = false;             // settings
-    bool resumed = false;             // what the output held was taken up
-    bool midPass = false;             // the job's film has part of a pass that was left
-    bool failed = false;              // the problem is the device's
-    bool halted = false;              // nothing to render until a wish changes
-    bool hasWork = true;              // without a wish
-    uint published = 0;               // passes in the latest picture
-    bool withPhotons = false;
-    Clock::time_point publication{};
-    double publishing = 0; // seconds that the last one took
-    uint nextEstimate = 2; // passes
-    uint losses = 0;       // of the device
-    RenderState own;
+    uint reloaded = 0;          // of the request's reloads
+    uint saved = 0;             // of its saves
+    bool resumed = false;       // what the output held was taken up
+    bool midPass = false;       // the job's film has part of a pass that was left
+    uint published = 0;         // passes in the newest picture
+    bool withPhotons = false;   // this one has them
+    double nextPublication = 0; // seconds since the start
+    uint losses = 0;            // of the device
     std::exception_ptr failure;
     bool savedAtEnd = false;
     std::jthread thread;

@@ -1,44 +1,11 @@
-/// Layers and tone curves to display pixels, fast enough for a slider.
+/// Layers and tone curves to display pixels.
 #include "window/tone.h"
 #include "output/film_image.h"
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vkpm {
 namespace {
-
-/// encodeSrgb by a table: the upper half of a float's bits leads to a byte that is right or one to follow.
-class SrgbTable {
-public:
-    SrgbTable() {
-        for (uint high = 0; high < firsts.size(); high++)
-            firsts[high] = static_cast<unsigned char>(encodeSrgb(std::bit_cast<float>(high << 16)));
-        for (uint byte = 1; byte < 256; byte++) least[byte] = firstThatGives(byte);
-    }
-
-    uint encode(float linear) const {
-        if (!(linear > 0)) return 0;
-        if (linear >= 1) return 255;
-        uint byte = firsts[std::bit_cast<uint>(linear) >> 16];
-        while (byte < 255 && linear >= least[byte + 1]) byte++;
-        return byte;
-    }
-
-private:
-    /// The least float of a byte, by bisection: floats above 0 are in the order of their bits.
-    static float firstThatGives(uint byte) {
-        uint low = 0, high = std::bit_cast<uint>(1.0f);
-        while (high - low > 1) {
-            const uint middle = low + (high - low) / 2;
-            (encodeSrgb(std::bit_cast<float>(middle)) >= byte ? high : low) = middle;
-        }
-        return std::bit_cast<float>(high);
-    }
-
-    std::array<unsigned char, (0x3f80u + 1)> firsts{}; // up to 1.0
-    std::array<float, 256> least{};
-};
 
 vec3 valueOf(const Pixel& pixel, uint layer) {
     if (layer == SHOW_BEAUTY) return beauty(pixel);
@@ -68,8 +35,7 @@ uint byteOf(float part) { return static_cast<uint>(std::lround(255 * std::clamp(
 
 } // namespace
 
-std::vector<uint> develop(std::span<const Pixel> pixels, const Tone& tone) {
-    static const SrgbTable table;
+std::vector<uint> toneMap(std::span<const Pixel> pixels, const Tone& tone) {
     std::vector<uint> colors;
     colors.reserve(pixels.size());
     const bool light = tone.layer != SHOW_ALBEDO;
@@ -82,7 +48,7 @@ std::vector<uint> develop(std::span<const Pixel> pixels, const Tone& tone) {
             continue;
         }
         const vec3 c = light ? curved(value * gain, tone.curve) : value;
-        colors.push_back(packed(table.encode(c.x), table.encode(c.y), table.encode(c.z)));
+        colors.push_back(packed(encodeSrgb(c.x), encodeSrgb(c.y), encodeSrgb(c.z)));
     }
     return colors;
 }

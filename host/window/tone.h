@@ -30,6 +30,6 @@ struct Tone {
 
 /// 8-bit sRGB, red in the lowest byte; beauty by the linear curve has the bytes of the PNG. Normals are halved and
 /// moved to [0, 1], and not encoded. Noise and bias, whose sign is left out, are shown `errorGain` times as bright.
-std::vector<uint> develop(std::span<const Pixel> pixels, const Tone& tone);
+std::vector<uint> toneMap(std::span<const Pixel> pixels, const Tone& tone);
 
 } // namespace vkpm

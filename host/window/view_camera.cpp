@@ -41,7 +41,7 @@ View moved(View view, const dvec3& by) {
 } // namespace
 
 View orbit(View view, dvec2 angles) {
-    view.origin = vec3(dvec3(view.target) - turned(view, {angles.x, angles.y}) * axesOf(view).distance);
+    view.origin = vec3(dvec3(view.target) - turned(view, angles) * axesOf(view).distance);
     return view;
 }
 
@@ -74,6 +74,13 @@ View focus(View view, vec3 point) {
     const double slant = glm::length(glm::cross(line, dvec3(view.up)));
     if (slant > closestToPole * glm::length(line) * glm::length(dvec3(view.up))) view.target = point;
     return view;
+}
+
+std::optional<double> depthAt(const Picture& picture, dvec2 place) {
+    if (glm::any(glm::lessThan(place, dvec2(0))) || glm::any(glm::greaterThanEqual(place, dvec2(1)))) return {};
+    const uvec2 pixel(place * dvec2(picture.size));
+    const Sample& sample = picture.pixels[std::size_t(pixel.y) * picture.size.x + pixel.x].mean;
+    return sample.covered > 0 ? std::optional(double(sample.depth) / sample.covered) : std::nullopt;
 }
 
 vec3 pointAt(const View& view, uvec2 size, dvec2 place, double depth) {

@@ -1,7 +1,6 @@
 /// Moving a view as a hand on the mouse wants it; all as functions from view to view.
 #pragma once
-#include "scene/scene.h"
-#include <optional>
+#include "window/picture.h"
 
 namespace vkpm {
 
@@ -20,8 +19,10 @@ View fly(View view, dvec3 distances);
 /// Makes a point the target, and with it the centre of orbits.
 View focus(View view, vec3 point);
 
-/// The point at a depth (world units) along the camera's axis that a place of the film sees; places are in [0, 1]^2, y
-/// down.
+/// The depth (world units, along the camera's axis) of what a place of the film sees; places are in [0, 1]^2, y down.
+/// Nothing beside the film, or where no surface is.
+std::optional<double> depthAt(const Picture& picture, dvec2 place);
+/// The point at such a depth.
 vec3 pointAt(const View& view, uvec2 size, dvec2 place, double depth);
 
 /// Where on the film a point is seen, and its depth, world units; nothing if it is behind the eye.

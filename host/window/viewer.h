@@ -1,11 +1,10 @@
-/// The loop of the window: events to wishes, pictures to frames.
+/// The loop of the window: events to requests, pictures to frames.
 #pragma once
 #include "output/event_log.h"
-#include "window/developer.h"
 #include "window/panel.h"
 #include "window/render_thread.h"
 #include "window/scene_watch.h"
-#include "window/window.h"
+#include <future>
 
 namespace vkpm {
 
@@ -20,20 +19,19 @@ public:
 private:
     double patience() const;
     void takeEvents();
-    void act(Action action);
     void focusAt(dvec2 place);
-    void moveOrRest();
-    void followWindow();
-    void wishOptions();
-    void watch();
-    void takePicture();
+    void updateState();
+    void updateMotion();
+    void updateSettings();
+    void convertPicture();
     void draw();
     void logOpening();
     void logFirst();
     void endMotion();
+    ivec2 room() const;
     Rectangle place() const;
-    double draftsPerSecond() const;
-    View viewNow() const { return view.value_or(state.sceneView); }
+    double previewsPerSecond() const;
+    View viewNow() const { return choices.request.view.value_or(state.sceneView); }
 
     RenderOptions commandLine;
     Window& window;
@@ -42,28 +40,28 @@ private:
     Clock::time_point start;
     SceneWatch sceneWatch;
     Controls controls;
-    PanelChoices choices;
+    Choices choices;
     RenderState state;
-    std::shared_ptr<const Picture> picture;
-    std::shared_ptr<const Picture> asked; // for a print
-    std::optional<Tone> askedTone;
-    Developer developer{Window::wake};
-    std::optional<View> view; // absent: the scene's
-    bool panel = true;
-    std::string about;
+    std::string about; // what was done last
     std::string title;
 
-    bool moving = false;
+    std::shared_ptr<const Picture> picture;       // shown
+    std::shared_ptr<const Picture> converted;     // newest that was given to the converter,
+    Tone convertedTone;                           // and how
+    std::future<std::vector<uint>> displayPixels; // of it, until they are shown
+    std::jthread converter;                       // beside the window's thread, which a large film would hold up
+
+    std::optional<View> lastView;
     Clock::time_point lastMove{};
     Clock::time_point lastFrame = Clock::now();
     Clock::time_point motionStart{};
-    uint motionFrames = 0; // drafts shown
+    uint motionFrames = 0; // previews shown
     Clock::time_point lastWatch = Clock::now();
     uvec2 lastSize{0};
     Clock::time_point lastResize{};
     uint settling = 0;      // frames to draw without an event, for ImGui to come to rest
     double longestWait = 0; // seconds that an event may have waited
-    bool opened = false, drafted = false, passSeen = false; // as the log has it
+    bool opened = false, previewSeen = false, passSeen = false; // as the log has it
 };
 
 } // namespace vkpm

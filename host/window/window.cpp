@@ -1,10 +1,11 @@
 /// GLFW's window and ImGui's context in it.
 #include "window/window.h"
-#include "gpu/instance.h"
+#include "window/presenter.h"
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <atomic>
 #include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_vulkan.h>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
@@ -43,6 +44,8 @@ void listenForLoss() {
     if (void* set = xlib ? dlsym(xlib, "XSetIOErrorHandler") : nullptr)
         reinterpret_cast<Handler (*)(Handler)>(set)(onLoss);
 }
+
+Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 } // namespace
 
@@ -84,21 +87,19 @@ void Window::open(const std::string& title, uvec2 size) {
 
 /// Before ImGui, which calls on what it finds.
 void Window::listen() {
-    const auto self = [](GLFWwindow* w) { return static_cast<Window*>(glfwGetWindowUserPointer(w)); };
-    static const auto of = self;
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-        of(w)->queue.push_back({Event::Kind::key, key, action, modifiers, of(w)->pointer()});
+        of(w).queue.push_back({Event::Kind::key, key, action, modifiers, of(w).pointer()});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
-        of(w)->queue.push_back({Event::Kind::button, button, action, modifiers, of(w)->pointer()});
+        of(w).queue.push_back({Event::Kind::button, button, action, modifiers, of(w).pointer()});
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-        of(w)->queue.push_back({.kind = Event::Kind::move, .position = of(w)->inPixels(x, y)});
+        of(w).queue.push_back({.kind = Event::Kind::move, .position = of(w).inPixels(x, y)});
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
-        of(w)->queue.push_back({.kind = Event::Kind::scroll, .position = of(w)->pointer(), .scroll = y});
+        of(w).queue.push_back({.kind = Event::Kind::scroll, .position = of(w).pointer(), .scroll = y});
     });
-    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float x, float) { of(w)->density = x; });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float x, float) { of(w).density = x; });
 }
 
 void Window::prepareInterface() {
@@ -157,7 +158,6 @@ void Window::wake() {
 
 bool Window::closed() const { return glfwWindowShouldClose(window); }
 void Window::close() { glfwSetWindowShouldClose(window, GLFW_TRUE); }
-bool Window::focused() const { return glfwGetWindowAttrib(window, GLFW_FOCUSED); }
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window, title.c_str()); }
 void Window::copy(const std::string& text) { glfwSetClipboardString(window, text.c_str()); }
 
@@ -187,7 +187,7 @@ void Window::setPicture(uvec2 size, std::vector<uint> rgba8) {
 }
 
 bool Window::draw(const Rectangle& where, const std::function<void()>& interface) {
-    presenter->beginFrame();
+    ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     interface();

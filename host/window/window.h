@@ -1,7 +1,9 @@
 /// A window of the desktop: its events, and frames with a picture and ImGui over it.
 #pragma once
-#include "window/presenter.h"
+#include "shared.h"
 #include <functional>
+#include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +12,16 @@
 struct GLFWwindow;
 
 namespace vkpm {
+
+using glm::ivec2, glm::dvec2, glm::dvec3;
+
+class Presenter;
+
+/// A rectangle of the window's pixels, y down.
+struct Rectangle {
+    ivec2 corner{0};
+    ivec2 size{0};
+};
 
 /// What came from keyboard or mouse, in the order in which it came. Keys, buttons, modifiers and actions are GLFW's
 /// numbers.
@@ -45,7 +57,6 @@ public:
 
     bool closed() const;
     void close();
-    bool focused() const;
     uvec2 size() const; // pixels
     dvec2 pointer() const;
     /// Pixels to a point of the interface: 1, or more on a dense display.

@@ -7,17 +7,14 @@ namespace vkpm {
 
 /// A second, small renderer of the scene, whose photon maps are made once: a frame takes camera paths alone. Its size
 /// follows the time that frames take.
-class Draft {
+class Preview {
 public:
-    Draft(Gpu& gpu, const Scene& scene, const Settings& settings);
+    Preview(Gpu& gpu, const Scene& scene, const Settings& settings);
 
     /// A picture of a view for a film of `size`, of a pixel for many.
     Picture render(const View& view, uvec2 size);
 
 private:
-    uvec2 sizeFor(uvec2 film) const;
-    void adapt(double seconds);
-
     double scale; // of the film's sides
     Renderer renderer;
 };
