@@ -1,6 +1,7 @@
 /// What a render did and what it took, as one JSON object.
 #pragma once
 #include "render/error_estimate.h"
+#include "render/photon_tracing.h"
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>
@@ -11,15 +12,6 @@
 #include <vector>
 
 namespace vkpm {
-
-/// What became of the photons of one map over all passes; lost ones ran out of bounces or were not finite.
-struct PhotonCounts {
-    std::uint64_t emitted = 0;
-    std::uint64_t stored = 0;
-    std::uint64_t absorbed = 0;
-    std::uint64_t escaped = 0;
-    std::uint64_t lost = 0;
-};
 
 /// First gather radii of one map, world units: the same everywhere, or by region.
 struct GatherRadii {
@@ -38,8 +30,8 @@ struct Statistics {
     double renderSeconds = 0;                             // all passes
     std::vector<std::pair<std::string, double>> stages{}; // seconds; a name that occurs twice is summed
     std::uint64_t rays = 0;                               // of every kind, over all passes
-    PhotonCounts global{};
-    PhotonCounts caustic{};
+    PhotonLedger global{};
+    PhotonLedger caustic{};
     std::optional<GatherRadii> globalRadii{}; // absent with the map
     std::optional<GatherRadii> causticRadii{};
     float radiusFactor = 1; // of the last pass: its radii over those of the first
