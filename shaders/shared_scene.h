@@ -107,7 +107,7 @@ struct Camera {
     vec3 up;
 };
 
-/// Addresses of the arrays of a scene; what a scene missingRequirements has address 0.
+/// Addresses of the arrays of a scene; what a scene lacks has address 0.
 struct DeviceScene {
     ADDRESS(Node) nodes;
     ADDRESS(Leaf) leaves;

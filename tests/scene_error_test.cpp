@@ -218,6 +218,45 @@ TEST(Schema, AgreesWithTheLoaderAboutEveryValue) {
         }
 }
 
+TEST(Schema, HasTheRangesOfTheLoader) {
+    const json schema = readJson(fs::path{VKPM_SCENES} / "scene.schema.json");
+    int ends = 0;
+    for (const char* section : {"camera", "film", "settings"})
+        for (const auto& [key, rule] : schema["properties"][section]["properties"].items())
+            for (const char* end : {"minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum"}) {
+                if (!rule.contains(end)) continue;
+                const bool isInteger = rule["type"] == "integer";
+                for (const double step : {-1.0, 0.0, 1.0}) {
+                    const double value = rule[end].get<double>() + (isInteger ? step : 1e-3 * step);
+                    json scene = smallScene();
+                    scene[section][key] = isInteger ? json(static_cast<std::int64_t>(value)) : json(value);
+                    expectAgreement(scene, key + " = " + scene[section][key].dump());
+                }
+                ends++;
+            }
+    EXPECT_GE(ends, 18);
+}
+
+TEST(Schema, HasTheNamesAndDefaultsOfTheSettings) {
+    const json rules = readJson(fs::path{VKPM_SCENES} / "scene.schema.json")["properties"]["settings"]["properties"];
+    EXPECT_EQ(rules["kernel"]["enum"], json(kernelNames));
+    EXPECT_EQ(rules["fresnel"]["enum"], json(fresnelNames));
+    EXPECT_EQ(rules["layers"]["items"]["enum"], json(layerNames));
+    EXPECT_EQ(rules["layers"]["maxItems"], layerNames.size());
+
+    const Settings defaults;
+    EXPECT_EQ(rules["passes"]["default"], defaults.passes);
+    EXPECT_EQ(rules["photons"]["default"], defaults.photons);
+    EXPECT_EQ(rules["causticPhotons"]["default"], defaults.causticPhotons);
+    EXPECT_EQ(rules["gatherRays"]["default"], defaults.gatherRays);
+    EXPECT_EQ(rules["gatherRays"]["maximum"], maxGatherRays);
+    EXPECT_EQ(rules["nearest"]["default"], defaults.nearest);
+    EXPECT_EQ(rules["alpha"]["default"].get<float>(), defaults.alpha);
+    EXPECT_EQ(rules["kernel"]["default"], kernelNames[defaults.kernel]);
+    EXPECT_EQ(rules["fresnel"]["default"], fresnelNames[defaults.schlick]);
+    EXPECT_EQ(rules["seed"]["default"], defaults.seed);
+}
+
 TEST(Schema, AgreesWithTheLoaderAboutEveryKey) {
     for (const json::json_pointer& place : places(smallScene())) {
         json scene = smallScene();

@@ -11,12 +11,9 @@ namespace vkpm {
 /// A scene of triangles and then spheres, of one material.
 inline Scene sceneOf(std::vector<Primitive> primitives, uint triangleCount) {
     Scene scene;
-    const Bvh bvh = buildBvh(primitives, triangleCount);
-    scene.nodes = bvh.nodes;
-    scene.leaves = bvh.leaves;
-    scene.stackSize = bvh.stackSize;
     scene.primitives = std::move(primitives);
     scene.triangleCount = triangleCount;
+    addBvh(scene);
     scene.materials.push_back({MATERIAL_DIFFUSE, vec3{0.5f}, 1});
     return scene;
 }

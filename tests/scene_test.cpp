@@ -2,6 +2,7 @@
 #include "render/features.h"
 #include "scene/bounding_sphere.h"
 #include "scene/lights.h"
+#include "scene/luminance.h"
 #include "scene/scene.h"
 #include "scene_text.h"
 #include <fmt/format.h>

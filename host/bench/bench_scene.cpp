@@ -61,10 +61,7 @@ Scene benchScene(uint around, uint across) {
     scene.bounds = {vec3{-1}, vec3{1}};
     scene.view = {{0.2f, 0.5f, 0.95f}, {0, -0.1f, 0}, {0, 1, 0}, glm::radians(75.0f)};
 
-    Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
-    scene.nodes = std::move(bvh.nodes);
-    scene.leaves = std::move(bvh.leaves);
-    scene.stackSize = bvh.stackSize;
+    addBvh(scene);
     return scene;
 }
 

@@ -1,4 +1,4 @@
-/// vkpm devices: what this machine has, what each device missingRequirements, and the driver audit.
+/// vkpm devices: what this machine has, what each device lacks, and the driver audit.
 #include "commands/commands.h"
 #include "gpu/audit.h"
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ static nlohmann::ordered_json describe(std::size_t index, const DeviceInfo& info
                                   {"vulkan", info.apiVersion},
                                   {"subgroup_size", info.subgroupSize},
                                   {"memory_bytes", info.memoryBytes},
-                                  {"missingRequirements", info.missingRequirements},
+                                  {"lacks", info.missingRequirements},
                                   {"audit", nlohmann::ordered_json::array()}};
     if (!info.missingRequirements.empty()) return device;
     Gpu gpu(std::to_string(index));
@@ -27,8 +27,7 @@ static void printDevice(const nlohmann::ordered_json& device) {
                device["name"].get<std::string>(), device["driver"].get<std::string>(),
                device["vulkan"].get<std::string>(), device["subgroup_size"].get<int>(),
                device["memory_bytes"].get<double>() / 1073741824);
-    for (const auto& lack : device["missingRequirements"])
-        fmt::print("   missingRequirements {}\n", lack.get<std::string>());
+    for (const auto& lack : device["lacks"]) fmt::print("   lacks {}\n", lack.get<std::string>());
     for (const auto& test : device["audit"])
         fmt::print("   audit: {}: {}\n", test["test"].get<std::string>(),
                    test["passed"].get<bool>() ? "passed" : "FAILED: " + test["found"].get<std::string>());

@@ -1,123 +1,84 @@
 /// The command line.
 #include "commands/options.h"
 #include "commands/option_parser.h"
+#include "error.h"
 #include "measure/layer_error.h"
+#include "scene/settings.h"
 #include <array>
 
 namespace vkpm {
 namespace {
 
-/// The words of a table of names, by number.
-template <std::size_t count> Words wordsOf(const std::array<const char*, count>& names) {
-    Words words;
-    for (uint i = 0; i < count; i++) words.emplace_back(names[i], i);
-    return words;
-}
-
-const Words INTEGRATORS = wordsOf(integratorNames);
-const Words MAPS{{"global", 0}, {"caustic", 1}};
-const Words SHOWS{{"estimate", 0}, {"points", 1}};
-const Words KERNELS = wordsOf(kernelNames);
-const Words PROGRAMS{{"scene", 0}, {"all", 1}};
-const Words FRESNELS{{"exact", 0}, {"schlick", 1}};
-
 void addDevice(Parser& parser, std::string& device) {
-    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)",
-               [&](auto&, auto& value) { device = value; });
+    parser.add("--device", "INDEX|NAME", "Vulkan device by number or part of its name (default: the best)", device);
 }
 
 void addMachine(Parser& parser, RenderOptions& options) {
-    parser.words("--features", PROGRAMS,
-                 "compile kernels for this scene, or with everything switched on (default scene)",
-                 [&](uint value) { options.allFeatures = value; });
+    parser.words("--features", std::array{"scene", "all"},
+                 "compile kernels for this scene, or with everything switched on", options.allFeatures, 0);
     addDevice(parser, options.device);
 }
 
 void addFiles(Parser& parser, RenderOptions& options) {
     parser.group("Files");
-    parser.add("--scene", "FILE", "scene to render (JSON); required",
-               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("--scene", "FILE", "scene to render (JSON); required", options.scene, sceneOf);
     parser.add("-o,--output", "FILE.exr", "image; a PNG is written beside it (default: the scene's name, here)",
-               [&](auto& name, auto& value) { options.output = exrOf(name, value); });
-    parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory",
-               [&](auto& name, auto& value) { options.stats = outputOf(name, value); });
+               options.output, exrOf);
+    parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory", options.stats, outputOf);
     parser.add("--report", "FOLDER", "error against run time while rendering: error.csv, and a page index.html",
-               [&](auto&, auto& value) { options.report = value; });
+               options.report);
     parser.add("--reference", "FILE.exr",
-               "what --report measures the error against; without it, the render's own estimates",
-               [&](auto&, auto& value) { options.reference = value; });
-    parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line",
-               [&](auto& name, auto& value) { options.log = outputOf(name, value); });
+               "what --report measures the error against; without it, the render's own estimates", options.reference);
+    parser.add("--log", "FILE.jsonl", "what happens and when, a JSON object per line", options.log, outputOf);
     parser.flag("--resume", "go on from what --output holds, if it is there", options.resume);
     parser.flag("--no-resume",
                 "save the picture and its layers alone, in half the bytes, without the sums from which --resume and "
                 "merge go on",
                 options.withoutSums);
     parser.flag("--half", "save layers, but for depth, as 16-bit floats", options.half);
-    parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)",
-               [&](auto& name, auto& value) { options.checkpoint = secondsOf(name, value); });
+    parser.add("--checkpoint", "SECONDS", "save every so often (default: only at the end)", options.checkpoint,
+               secondsOf);
 }
 
 void addImage(Parser& parser, RenderOptions& options, const Settings& defaults, const std::string& passes) {
-    const auto count = [&](const std::string& name, const std::string& help, uint low, uint high, auto& target) {
-        parser.add(name, "N", help,
-                   [=, &target](auto& option, auto& text) { target = countOf(option, text, low, high); });
-    };
     parser.group("Image (overrides the scene file, which overrides the defaults)");
-    parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y),
-               [&](auto& name, auto& value) { options.size = sizeOf(name, value); });
-    count("--passes", fmt::format("passes over the whole image (default {})", passes), 1, MAX_COUNT, options.passes);
+    parser.add("--size", "WxH", fmt::format("pixels (default {}x{})", defaults.size.x, defaults.size.y), options.size,
+               sizeOf);
+    parser.count("--passes", "passes over the whole image", passes, options.passes, 1);
     parser.add("--time", "SECONDS",
-               "of rendering, to the nearest pass; ends at --passes if that is given and comes first",
-               [&](auto& name, auto& value) { options.seconds = secondsOf(name, value); });
+               "of rendering, to the nearest pass; ends at --passes if that is given and comes first", options.seconds,
+               secondsOf);
     parser.add("--target-error", "E",
                "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
-               [&](auto& name, auto& value) { options.targetError = errorOf(name, value); });
-    parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge",
-               [&](auto& name, auto& value) { options.passRange = passRangeOf(name, value); });
-    count("--seed", fmt::format("seed of the random numbers (default {})", defaults.seed), 0, NONE, options.seed);
-    parser.words("--integrator", INTEGRATORS,
-                 fmt::format("how light is found (default {})", wordOf(INTEGRATORS, defaults.integrator)),
-                 [&](uint value) { options.integrator = value; });
-    parser.words("--map", MAPS, fmt::format("photon-map: which map (default {})", wordOf(MAPS, defaults.showCaustic)),
-                 [&](uint value) { options.showCaustic = value; });
-    parser.words("--show", SHOWS, fmt::format("photon-map: as what (default {})", wordOf(SHOWS, defaults.showPoints)),
-                 [&](uint value) { options.showPoints = value; });
-    parser.words("--fresnel", FRESNELS,
-                 fmt::format("reflectance of glass (default {})", wordOf(FRESNELS, defaults.schlick)),
-                 [&](uint value) { options.schlick = value; });
+               options.targetError, errorOf);
+    parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge", options.passRange,
+               passRangeOf);
+    parser.count("--seed", "seed of the random numbers", defaults.seed, options.seed, 0, NONE);
+    parser.words("--integrator", integratorNames, "how light is found", options.integrator, defaults.integrator);
+    parser.words("--map", mapNames, "photon-map: which map", options.showCaustic, defaults.showCaustic);
+    parser.words("--show", showNames, "photon-map: as what", options.showPoints, defaults.showPoints);
+    parser.words("--fresnel", fresnelNames, "reflectance of glass", options.schlick, defaults.schlick);
     parser.add("--layers", "A,B,...",
                fmt::format("render only these; beauty is the sum of the lights' parts among them: {} (default all)",
                            fmt::join(layerNames, ", ")),
-               [&](auto& name, auto& value) { options.layers = layersOf(name, value); });
+               options.layers, layersOf);
 }
 
 void addPhotons(Parser& parser, RenderOptions& options, const Settings& defaults) {
-    const auto count = [&](const std::string& name, const std::string& help, auto& target) {
-        parser.add(name, "N", help, [&](auto& option, auto& text) { target = countOf(option, text, 0, MAX_COUNT); });
-    };
-    const auto radius = [&](const std::string& name, const std::string& help, auto& target) {
-        parser.add(name, "R", help, [&](auto& option, auto& text) { target = radiusOf(option, text); });
-    };
     parser.group("Photons (likewise)");
-    count("--photons", fmt::format("emitted per pass (default {})", defaults.photons), options.photons);
-    count("--caustic-photons", fmt::format("aimed at specular shapes per pass (default {})", defaults.causticPhotons),
-          options.causticPhotons);
-    parser.add("--gather-rays", "N",
-               fmt::format("from each point that the eye sees, per pass, 1 to {} (default {})", maxGatherRays,
-                           defaults.gatherRays),
-               [&](auto& name, auto& value) { options.gatherRays = countOf(name, value, 1, maxGatherRays); });
-    radius("--radius", "first gather radius, world units (default: measured by a pilot pass)", options.radius);
-    radius("--caustic-radius", "the same for caustics", options.causticRadius);
-    count("--nearest",
-          fmt::format("first radius: that of the N nearest; 0: one for all (default {})", defaults.nearest),
-          options.nearest);
+    parser.count("--photons", "emitted per pass", defaults.photons, options.photons);
+    parser.count("--caustic-photons", "aimed at specular shapes per pass", defaults.causticPhotons,
+                 options.causticPhotons);
+    parser.count("--gather-rays", fmt::format("from each point that the eye sees, per pass, 1 to {}", maxGatherRays),
+                 defaults.gatherRays, options.gatherRays, 1, maxGatherRays);
+    parser.add("--radius", "R", "first gather radius, world units (default: measured by a pilot pass)", options.radius,
+               radiusOf);
+    parser.add("--caustic-radius", "R", "the same for caustics", options.causticRadius, radiusOf);
+    parser.count("--nearest", "first radius: that of the N nearest; 0: one for all", defaults.nearest, options.nearest);
     parser.add("--alpha", "A",
                fmt::format("how fast radii shrink from pass to pass; 1: not at all (default {:.3})", defaults.alpha),
-               [&](auto& name, auto& value) { options.alpha = alphaOf(name, value); });
-    parser.words("--kernel", KERNELS,
-                 fmt::format("of the density estimate (default {})", wordOf(KERNELS, defaults.kernel)),
-                 [&](uint value) { options.kernel = value; });
+               options.alpha, alphaOf);
+    parser.words("--kernel", kernelNames, "of the density estimate", options.kernel, defaults.kernel);
 }
 
 const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they take):
@@ -127,7 +88,7 @@ const char* const COMMANDS = R"(Commands (vkpm COMMAND --help says what they tak
   compare IMAGE REFERENCE [--json]
                                  error measures between two EXR files, layer by layer
   merge OUT.exr PART.exr...      put parts that --pass-range rendered together
-  devices [--json]               list the Vulkan devices and what each missingRequirements
+  devices [--json]               list the Vulkan devices and what each lacks
   bench [--json] [--scene FILE] [--device INDEX|NAME]
                                  measure rays, sort, gather and memory rates
   bench --features SCENE.json... [--json] [--device INDEX|NAME]
@@ -145,7 +106,7 @@ void requireRender(RenderOptions& options) {
     if (options.scene.empty())
         throw InputError(fmt::format("--scene: missing; allowed: a scene file, as in vkpm{} --scene FILE",
                                      options.isEndless ? " view" : ""));
-    if (options.output.empty()) options.output = exrOf("--output", options.scene.stem().string() + ".exr");
+    if (options.output.empty()) options.output = valueOf("--output", options.scene.stem().string() + ".exr", exrOf);
     requireFilesApart(options, std::array{options.scene});
     if (options.passRange && options.passes && options.passRange->end > *options.passes)
         refuse("--pass-range", fmt::format("{}:{}", options.passRange->begin, options.passRange->end),
@@ -195,8 +156,7 @@ Options parsePlan(std::span<const std::string> arguments) {
     const Settings defaults;
     Parser parser("Say what a scene needs, what is left out and why, and how much memory it takes. Renders one pass.",
                   "vkpm plan --scene FILE [options]");
-    parser.add("--scene", "FILE", "scene (JSON); required",
-               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("--scene", "FILE", "scene (JSON); required", options.scene, sceneOf);
     parser.flag("--json", "as JSON", options.json);
     addImage(parser, options, defaults, std::to_string(defaults.passes));
     addPhotons(parser, options, defaults);
@@ -212,7 +172,7 @@ Options parseCompare(std::span<const std::string> arguments) {
     CompareOptions options;
     Parser parser("Measure how far an image is off a reference, layer by layer. Needs no device.",
                   "vkpm compare IMAGE REFERENCE [--json]");
-    parser.files("files", "the image, then its reference (EXR)", [&](auto& values) {
+    parser.files("the image, then its reference (EXR)", [&](auto& values) {
         if (values.size() != 2)
             throw InputError(fmt::format("compare: found {} file{}; allowed: two, as in vkpm compare IMAGE REFERENCE",
                                          values.size(), values.size() == 1 ? "" : "s"));
@@ -229,10 +189,10 @@ Options parseMerge(std::span<const std::string> arguments) {
     MergeOptions options;
     Parser parser("Put parts of one render, made with --pass-range, together.",
                   "vkpm merge OUT.exr PART.exr... [options]");
-    parser.files("files", "the merged image, then its parts in any order", [&](auto& values) {
+    parser.files("the merged image, then its parts in any order", [&](auto& values) {
         if (values.size() < 2)
             throw InputError("merge: found fewer than two files; allowed: vkpm merge OUT.exr PART.exr...");
-        options.output = exrOf("OUT.exr", values[0]);
+        options.output = valueOf("OUT.exr", values[0], exrOf);
         options.parts.assign(values.begin() + 1, values.end());
     });
     parser.flag("--part", "allow a result that does not begin with pass 0", options.isPart);
@@ -243,7 +203,7 @@ Options parseMerge(std::span<const std::string> arguments) {
 
 Options parseDevices(std::span<const std::string> arguments) {
     DevicesOptions options;
-    Parser parser("List the Vulkan devices and what each missingRequirements.", "vkpm devices [--json]");
+    Parser parser("List the Vulkan devices and what each lacks.", "vkpm devices [--json]");
     parser.flag("--json", "as JSON", options.json);
     if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};
     return options;
@@ -254,17 +214,16 @@ Options parseBench(std::span<const std::string> arguments) {
     Parser parser("Measure rays, sort, gather and memory rates; or what a program compiled for a scene saves.",
                   "vkpm bench [options], vkpm bench --features SCENE.json...");
     parser.flag("--json", "as JSON", options.json);
-    parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)",
-               [&](auto& name, auto& value) { options.scene = sceneOf(name, value); });
+    parser.add("--scene", "FILE", "scene to trace rays in (default: one of its own)", options.scene, sceneOf);
     parser.flag("--features", "start-up, time and memory of the program for each scene against the general one's",
                 options.features);
-    parser.files("files", "scenes for --features", [&](auto& values) {
+    parser.files("scenes for --features", [&](auto& values) {
         if (options.features && values.empty())
             throw InputError(
                 "bench: --features: found no scene; allowed: one or more, as in vkpm bench --features scenes/box.json");
         if (!options.features && !values.empty())
             throw InputError(fmt::format("bench: found \"{}\"; allowed: --scene {}", values[0], values[0]));
-        for (const std::string& value : values) options.scenes.push_back(sceneOf("--features", value));
+        for (const std::string& value : values) options.scenes.push_back(valueOf("--features", value, sceneOf));
     });
     addDevice(parser, options.device);
     if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};

@@ -1,11 +1,11 @@
 /// vkpm plan: what a scene needs, what is left out and why, kernels' sizes, and memory by buffer.
 #include "commands/commands.h"
 #include "gpu/audit.h"
+#include "gpu/spirv.h"
 #include "gpu/spirv_size.h"
 #include "job/memory_advice.h"
 #include "render/explain.h"
 #include "render/renderer.h"
-#include "shared_film.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +23,7 @@ static Json featuresJson(const Features& features, const Settings& settings) {
 static Json kernelsJson(const Gpu& gpu, const Features& features) {
     Json list = Json::array();
     for (const auto& [name, time] : gpu.times) {
-        if (name == "clear" || name == "audit" || name == "staging") continue;
+        if (!isKernel(name)) continue; // but a copy, or clearing
         list.push_back({{"name", name},
                         {"instructions", instructionCount(name, features)},
                         {"general_instructions", instructionCount(name, Features{})}});
@@ -33,9 +33,7 @@ static Json kernelsJson(const Gpu& gpu, const Features& features) {
 
 /// Memory after a pass and a save, and the film's further runs.
 static Json memoryJson(const Gpu& gpu, const Features& features, const Settings& settings) {
-    const std::uint64_t film =
-        std::uint64_t(settings.size.x) * settings.size.y * Columns(features).SUM_COLUMNS * sizeof(float);
-    const std::uint64_t more = (maxRuns(settings.passes) - 1) * film;
+    const std::uint64_t more = bytesOfFurtherRuns(features, settings);
     Json buffers = Json::object();
     for (const auto& [name, bytes] : gpu.memory)
         if (bytes > 0) buffers[name] = buffers.value(name, std::uint64_t{0}) + bytes + (name == "film" ? more : 0);
@@ -64,6 +62,7 @@ int execute(const PlanOptions& options) {
     const Settings settings = options.settingsOf(scene.settings);
     Gpu gpu(options.device);
     requireSoundDriver(gpu);
+    gpu.times.clear(); // of the audit, so that what is left is the scene's
     const Json plan = adviseOnMemory(gpu, scene, settings, [&] {
         Renderer renderer(gpu, scene, settings);
         renderer.renderPass(0);

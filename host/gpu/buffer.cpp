@@ -17,9 +17,8 @@ namespace vkpm {
 using Usage = vk::BufferUsageFlagBits;
 using Property = vk::MemoryPropertyFlagBits;
 
-static int findMemoryType(const vk::raii::PhysicalDevice& device, std::uint32_t allowed,
+static int findMemoryType(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
                           vk::MemoryPropertyFlags wanted) {
-    const auto memory = device.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++)
         if ((allowed >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return static_cast<int>(i);
     return -1;
@@ -49,10 +48,7 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
         throw OutOfMemory(refusal(
             gpu, name, bytes,
             fmt::format("{:.1f} MiB were free when the device was opened", double(gpu.handles->freeBytes) / 1048576)));
-    const auto limits =
-        gpu.handles->physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
-    if (const std::uint64_t most = limits.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
-        bytes > most)
+    if (const std::uint64_t most = gpu.handles->maxAllocation; bytes > most)
         throw OutOfMemory(refusal(
             gpu, name, bytes, fmt::format("the device gives {:.1f} MiB in one piece at most", double(most) / 1048576)));
     if (gpu.handles->isProcessor)
@@ -67,7 +63,7 @@ static Allocation allocate(const Gpu& gpu, const std::string& name, std::uint64_
         const auto needs = result.buffer.getMemoryRequirements();
         int type = -1;
         for (const vk::MemoryPropertyFlags wanted : kinds)
-            if (type < 0) type = findMemoryType(gpu.handles->physical, needs.memoryTypeBits, wanted);
+            if (type < 0) type = findMemoryType(gpu.handles->memory, needs.memoryTypeBits, wanted);
         if (type < 0) throw GpuError(fmt::format("no memory type of the device fits buffer '{}'", name));
         const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
         result.memory =

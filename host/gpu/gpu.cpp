@@ -22,7 +22,7 @@ static int computeFamily(const vk::raii::PhysicalDevice& device) {
 }
 
 static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device) {
-    std::vector<std::string> missingRequirements;
+    std::vector<std::string> missing;
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
     const auto features = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
                                               vk::PhysicalDeviceVulkan13Features>();
@@ -30,7 +30,7 @@ static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
     const auto limits = device.getProperties().limits;
     const auto need = [&](bool has, const char* what) {
-        if (!has) missingRequirements.push_back(what);
+        if (!has) missing.push_back(what);
     };
     need(v12.bufferDeviceAddress, "bufferDeviceAddress");
     need(v12.scalarBlockLayout, "scalarBlockLayout");
@@ -43,7 +43,7 @@ static std::vector<std::string> findLacks(const vk::raii::PhysicalDevice& device
     need(bool(subgroup.subgroupSupportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic), "subgroup arithmetic");
     need(limits.maxComputeWorkGroupInvocations >= 64, "64 invocations in a work group");
     need(computeFamily(device) >= 0, "a compute queue");
-    return missingRequirements;
+    return missing;
 }
 
 static DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
@@ -74,7 +74,7 @@ static std::string describeAll(const std::vector<vk::raii::PhysicalDevice>& devi
         text += fmt::format("\n  {}: {}{}", i, info.name,
                             info.missingRequirements.empty()
                                 ? ""
-                                : fmt::format(" (missingRequirements {})", fmt::join(info.missingRequirements, ", ")));
+                                : fmt::format(" (lacks {})", fmt::join(info.missingRequirements, ", ")));
     }
     return text;
 }
@@ -104,8 +104,8 @@ static std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& dev
     if (chosen == devices.size())
         throw GpuError(fmt::format("no Vulkan device is '{}'; there are:{}", wanted, describeAll(devices)));
     if (rank(chosen) == 4)
-        throw GpuError(fmt::format("the Vulkan device missingRequirements what vkpm needs; there are:{}\n{}",
-                                   describeAll(devices), installHint));
+        throw GpuError(fmt::format("the Vulkan device lacks what vkpm needs; there are:{}\n{}", describeAll(devices),
+                                   installHint));
     return chosen;
 }
 
@@ -166,7 +166,12 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
         vk->tickMask = bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
     }
     vk->freeBytes = freeBytes(vk->physical);
-    vk->isProcessor = vk->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    vk->maxAllocation =
+        vk->physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>()
+            .get<vk::PhysicalDeviceMaintenance3Properties>()
+            .maxMemoryAllocationSize;
+    vk->memory = vk->physical.getMemoryProperties();
+    vk->isProcessor = properties.deviceType == vk::PhysicalDeviceType::eCpu;
     vk->mapsDeviceMemory =
         properties.deviceType != vk::PhysicalDeviceType::eDiscreteGpu && !std::getenv("VKPM_STAGING");
     return vk;

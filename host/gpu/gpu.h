@@ -1,4 +1,4 @@
-/// A Vulkan device with one compute queue: what it is, what it missingRequirements, and the handles the other files
+/// A Vulkan device with one compute queue: what it is, what it lacks, and the handles the other files
 /// here use.
 #pragma once
 #include "error.h"
@@ -32,7 +32,7 @@ struct Cancelled {};
 
 class Gpu {
 public:
-    /// Opens a device by index or by part of its name; without either the first that missingRequirements nothing, GPUs
+    /// Opens a device by index or by part of its name; without either the first that lacks nothing, GPUs
     /// before CPUs.
     explicit Gpu(std::string_view wanted = {});
     ~Gpu();

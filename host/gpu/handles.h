@@ -22,7 +22,9 @@ struct Gpu::Handles {
     bool isProcessor = false;   // no GPU: the driver runs on the host
     bool mapsDeviceMemory =
         false; // the host can write device memory directly; VKPM_STAGING says that it cannot, for tests
-    std::uint64_t freeBytes = 0; // of device memory when the device was opened
+    std::uint64_t freeBytes = 0;     // of device memory when the device was opened
+    std::uint64_t maxAllocation = 0; // bytes in one piece
+    vk::PhysicalDeviceMemoryProperties memory;
     DeviceInfo info;
     std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>>
         kernels;                                                  // by SPIR-V and features

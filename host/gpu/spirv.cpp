@@ -15,6 +15,8 @@ SpirvRegistration::SpirvRegistration(std::initializer_list<EmbeddedSpirv> kernel
     for (const EmbeddedSpirv& kernel : kernels) registry()[kernel.name] = kernel.words;
 }
 
+bool isKernel(std::string_view name) { return registry().contains(name); }
+
 std::span<const std::uint32_t> findSpirv(std::string_view name) {
     const auto found = registry().find(name);
     if (found == registry().end()) throw std::logic_error("no kernel is named " + std::string(name));

@@ -17,6 +17,8 @@ struct SpirvRegistration {
     SpirvRegistration(std::initializer_list<EmbeddedSpirv> kernels);
 };
 
+/// Whether there is a kernel of this name.
+bool isKernel(std::string_view name);
 /// The SPIR-V words of a kernel; the name must be that of a .comp file.
 std::span<const std::uint32_t> findSpirv(std::string_view name);
 

@@ -2,21 +2,15 @@
 #include "job/memory_advice.h"
 #include "gpu/buffer.h"
 #include "render/renderer.h"
+#include "shared_film.h"
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <vector>
 
 namespace vkpm {
 namespace {
-
-/// What a render takes with some number of photons.
-struct Needs {
-    std::map<std::string, std::uint64_t> bytes; // by buffer
-    double photons = 0;
-    double stored = 0; // of both maps
-};
 
 /// The settings with no more photons of either kind than `most`.
 Settings limited(Settings settings, uint most) {
@@ -25,48 +19,31 @@ Settings limited(Settings settings, uint most) {
     return settings;
 }
 
-/// Renders a pass with a number of photons; nothing if that does not fit.
-std::optional<Needs> measure(Gpu& gpu, const Scene& scene, const Settings& settings, uint photons) {
+/// The bytes that a pass with no more photons of either kind takes at most, beside all that the film comes to hold;
+/// nothing if that does not fit.
+std::optional<double> bytesWith(Gpu& gpu, const Scene& scene, const Settings& settings, uint photons) {
     try {
-        const Settings few = limited(settings, photons);
-        Renderer renderer(gpu, scene, few);
+        gpu.peakBytes = 0;
+        Renderer renderer(gpu, scene, limited(settings, photons));
+        const RawBuffer runs(gpu, "film", bytesOfFurtherRuns(renderer.features(), settings));
         renderer.renderPass(0);
-        Needs needs{gpu.memory, double(photons), 0};
-        needs.bytes["film"] *= maxRuns(settings.passes);
-        for (const MapKind kind : {MapKind::global, MapKind::caustic})
-            needs.stored = std::max(needs.stored, double(renderer.photons(kind).stored));
-        return needs;
+        return double(gpu.peakBytes);
     } catch (const OutOfMemory&) {
         return {};
     }
 }
 
-/// Needs at more photons than in two renders. Tables of cells double where photons do, up to 2^26 cells; all else grows
-/// steadily.
-Needs extrapolated(const Needs& few, const Needs& more, double photons) {
-    Needs needs = more;
-    const auto doublings = [&](double count) {
-        return std::bit_width(static_cast<std::uint64_t>(more.stored * count / more.photons));
-    };
-    for (auto& [name, bytes] : needs.bytes) {
-        const double before = few.bytes.contains(name) ? double(few.bytes.at(name)) : 0,
-                     slope = (double(bytes) - before) / (more.photons - few.photons);
-        if (name.ends_with(" cells"))
-            bytes = std::max(bytes, std::min<std::uint64_t>(bytes << (doublings(photons) - doublings(more.photons)),
-                                                            4 * ((1ull << 26) + 1)));
-        else bytes = static_cast<std::uint64_t>(double(bytes) + std::max(slope, 0.0) * (photons - more.photons));
-    }
-    return needs;
-}
-
-bool fits(Gpu& gpu, const Needs& needs) {
-    std::vector<RawBuffer> buffers;
-    try {
-        for (const auto& [name, bytes] : needs.bytes) buffers.emplace_back(gpu, name, bytes);
-    } catch (const OutOfMemory&) {
-        return false;
-    }
-    return true;
+/// The bytes that the device has left, found by taking them, in pieces down to a mebibyte.
+double bytesLeft(Gpu& gpu) {
+    std::vector<RawBuffer> pieces;
+    double sum = 0;
+    for (std::uint64_t size = 1 << 30; size >= 1 << 20;) try {
+            pieces.emplace_back(gpu, "trial", size);
+            sum += double(size);
+        } catch (const OutOfMemory&) {
+            size /= 2;
+        }
+    return sum;
 }
 
 /// Two leading digits, rounded down.
@@ -75,27 +52,28 @@ uint rounded(double count) {
     return static_cast<uint>(std::floor(count / unit) * unit);
 }
 
-/// About the most photons that fit, below a number that does not; 0 if it is not worth while to look for fewer.
+/// About the most photons that fit, below a number that does not; 0 if it is not worth while to look for fewer. Two
+/// small passes say what a photon takes.
 uint maxPhotons(Gpu& gpu, const Scene& scene, const Settings& settings, uint tooMany) {
     const uint least = 1000;
     uint photons = std::min(BatchSizes{}.photons, tooMany / 4);
-    std::optional<Needs> few = measure(gpu, scene, settings, photons);
-    while (!few && photons / 4 >= least) few = measure(gpu, scene, settings, photons /= 4);
+    std::optional<double> few = bytesWith(gpu, scene, settings, photons);
+    while (!few && photons / 4 >= least) few = bytesWith(gpu, scene, settings, photons /= 4);
     if (!few) return 0;
-    const std::optional<Needs> more = measure(gpu, scene, settings, 2 * photons);
+    const std::optional<double> more = bytesWith(gpu, scene, settings, 2 * photons);
     if (!more) return rounded(photons);
-    double low = more->photons, high = tooMany;
-    while (high / low > 1.01) {
-        const double middle = std::sqrt(low * high);
-        (fits(gpu, extrapolated(*few, *more, middle)) ? low : high) = middle;
-    }
-    // Some buffers live for a moment only: the last word has a render.
-    uint most = rounded(low);
-    while (most > 2 * photons && !measure(gpu, scene, settings, most)) most = rounded(0.95 * most);
+    const double each = std::max(*more - *few, 1.0) / photons;
+    uint most = rounded(std::min(photons + (bytesLeft(gpu) - *few) / each, double(tooMany)));
+    while (most > 2 * photons && !bytesWith(gpu, scene, settings, most)) most = rounded(0.9 * most);
     return most;
 }
 
 } // namespace
+
+std::uint64_t bytesOfFurtherRuns(const Features& features, const Settings& settings) {
+    const std::uint64_t pixels = std::uint64_t(settings.size.x) * settings.size.y;
+    return (maxRuns(settings.passes) - 1) * pixels * Columns(features).SUM_COLUMNS * sizeof(float);
+}
 
 std::string memoryAdvice(Gpu& gpu, const Scene& scene, const Settings& settings) {
     const uint asked = std::max(settings.photons, settings.causticPhotons);

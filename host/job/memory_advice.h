@@ -5,9 +5,11 @@
 
 namespace vkpm {
 
+/// Device memory of the film's runs of passes beyond the first, at the most.
+std::uint64_t bytesOfFurtherRuns(const Features& features, const Settings& settings);
+
 /// The most photons per pass, and the caustic map's, with which a render of these settings fits into the memory that is
-/// free now, in words: found by two small renders, from which the size of each buffer follows, and by trying to
-/// allocate them all.
+/// free now, in words: found by what two small passes take and what the device has left.
 std::string memoryAdvice(Gpu& gpu, const Scene& scene, const Settings& settings);
 
 /// Returns what `work` does; if the device runs out of memory, throws OutOfMemory with advice. What `work` made is gone

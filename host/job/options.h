@@ -55,7 +55,7 @@ struct RenderOptions : SettingsOptions {
     std::string device;     // index or part of the name; empty: vkpm chooses
     bool quiet = false;
 
-    /// As `over`; throws InputError also if --target-error missingRequirements the layers that it needs.
+    /// As `over`; throws InputError also if --target-error lacks the layers that it needs.
     Settings settingsOf(const Settings& sceneSettings) const;
 };
 

@@ -7,6 +7,7 @@
 #include "render/explain.h"
 #include "render/noise.h"
 #include "render/radius.h"
+#include "scene/box.h"
 #include "scene/identity.h"
 #include "scene/settings_json.h"
 #include <fmt/format.h>
@@ -15,8 +16,6 @@ namespace vkpm {
 namespace {
 
 const uint minPassesForError = 8; // batches of two sizes, see render/noise.h
-
-PhotonCounts countsOf(const PhotonLedger& l) { return {l.emitted, l.stored, l.absorbed, l.escaped, l.lost}; }
 
 std::optional<GatherRadii> radiiOf(const std::optional<PhotonMapStage>& map, bool given, double unit) {
     if (!map) return {};
@@ -240,8 +239,8 @@ Statistics RenderJob::statistics() const {
     s.rays = rays();
     s.waits = renderer.work().waits;
     s.dispatches = renderer.work().dispatches;
-    s.global = countsOf(renderer.photons(MapKind::global));
-    s.caustic = countsOf(renderer.photons(MapKind::caustic));
+    s.global = renderer.photons(MapKind::global);
+    s.caustic = renderer.photons(MapKind::caustic);
     s.globalRadii = globalRadii();
     s.causticRadii = causticRadii();
     s.radiusFactor = radiusFactor(renderer.film.passes().end - 1, settings.alpha);
@@ -287,12 +286,11 @@ void RenderJob::warnOfBlur() {
     const std::optional<PhotonMapStage>& map = renderer.causticMap();
     if (!map || !map->roundingBinds()) return;
     const auto inWorld = [&](double length) { return scene.coordinates.unit * length; };
-    const vec3 reach = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
     tell(fmt::format(
         "caustics are blurred by discs of {:.3g} at least, though photons are dense enough for narrower ones: "
         "coordinates reach {:.3g} from the middle of "
         "the scene, with the digits of 32-bit floats; leave out what lies far from the caustics, or move it nearer",
-        inWorld(map->smallestRadius()), inWorld(std::max({reach.x, reach.y, reach.z}))));
+        inWorld(map->smallestRadius()), inWorld(reachOf(scene.bounds))));
 }
 
 bool RenderJob::finish() {

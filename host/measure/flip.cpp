@@ -1,6 +1,7 @@
 /// HDR-FLIP, tile by tile: a tile is looked at with all exposures while it lies in the cache.
 #include "measure/flip.h"
 #include "measure/flip_filters.h"
+#include "scene/luminance.h"
 #include <bit>
 #include <cassert>
 #include <cstdint>
@@ -122,8 +123,7 @@ std::vector<float> luminances(const Layer& layer) {
     std::vector<float> values(layer.channels[0].size());
     for (size_t i = 0; i < values.size(); ++i) {
         const vec3 colour = colourAt(layer, i);
-        const float luminance = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;
-        values[i] = isFinite(colour) ? std::min(luminance, std::numeric_limits<float>::max()) : 0;
+        values[i] = isFinite(colour) ? std::min(luminance(colour), std::numeric_limits<float>::max()) : 0;
     }
     return values;
 }

@@ -18,27 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* whatHelps(int error) {
-    switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-        return "; free some space, or choose another folder";
-    case EFBIG:
-        return "; raise the limit on the size of files (ulimit -f)";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-        return "; choose a folder that you may write to";
-    case ENOENT:
-    case ENOTDIR:
-        return "; create the folder first, or choose another one";
-    case EISDIR:
-        return "; choose a name that is not a folder's";
-    case EMFILE:
-    case ENFILE:
-        return "; raise the limit on open files (ulimit -n)";
-    default:
-        return "";
-    }
+    if (error == ENOSPC || error == EDQUOT) return "; free some space, or choose another folder";
+    if (error == EFBIG) return "; raise the limit on the size of files (ulimit -f)";
+    if (error == EACCES || error == EROFS) return "; choose a folder that you may write to";
+    if (error == ENOENT) return "; create the folder first, or choose another one";
+    if (error == EISDIR) return "; choose a name that is not a folder's";
+    return "";
 }
 
 [[noreturn]] void fail(const fs::path& path, const char* call, int error) {

@@ -2,6 +2,7 @@
 #include "error.h"
 #include "output/channel_names.h"
 #include "output/exr.h"
+#include "scene/settings.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -24,8 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t MAX_PIXELS = std::int64_t(1) << 28;
-
 void startThreads() {
     if (Imf::globalThreadCount() == 0) Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -34,8 +33,8 @@ void startThreads() {
 uvec2 sizeOf(const Imath::Box2i& window) {
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
-    if (width < 1 || height < 1 || width > MAX_PIXELS / height)
-        throw InputError(fmt::format("found {}x{} pixels; allowed are 1 to {}", width, height, MAX_PIXELS));
+    if (width < 1 || height < 1 || width > std::int64_t{maxPixels} / height)
+        throw InputError(fmt::format("found {}x{} pixels; allowed are 1 to {}", width, height, maxPixels));
     return {static_cast<uint>(width), static_cast<uint>(height)};
 }
 

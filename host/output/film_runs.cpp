@@ -3,8 +3,8 @@
 #include "error.h"
 #include "scene/settings.h"
 #include "shared_film.h"
+#include "shared_layers.h"
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <fmt/format.h>
@@ -12,52 +12,29 @@
 namespace vkpm {
 namespace {
 
-/// The floats of a PixelSum, each with the layer that it belongs to, by place in layerNames.
+/// The floats of a PixelSum, each with the layer that it belongs to, by place in layerNames, and whether the file has
+/// its mean, too.
 struct Column {
-    const char* name;
+    std::string name;
     uint layer;
+    bool hasMean;
 };
-constexpr std::array<Column, PIXEL_FLOATS> COLUMN_NAMES{{
-    {"emission.R", 0},
-    {"emission.G", 0},
-    {"emission.B", 0},
-    {"direct.R", 1},
-    {"direct.G", 1},
-    {"direct.B", 1},
-    {"specular.R", 2},
-    {"specular.G", 2},
-    {"specular.B", 2},
-    {"caustic.R", 3},
-    {"caustic.G", 3},
-    {"caustic.B", 3},
-    {"indirect.R", 4},
-    {"indirect.G", 4},
-    {"indirect.B", 4},
-    {"albedo.R", 5},
-    {"albedo.G", 5},
-    {"albedo.B", 5},
-    {"normal.X", 6},
-    {"normal.Y", 6},
-    {"normal.Z", 6},
-    {"depth.Z", ASK_DEPTH},
-    {"covered.Y", ASK_DEPTH},
-    {"bias.R", 9},
-    {"bias.G", 9},
-    {"bias.B", 9},
-    {"fine.R", 8},
-    {"fine.G", 8},
-    {"fine.B", 8},
-    {"coarse.R", ASK_NOISE},
-    {"coarse.G", 8},
-    {"coarse.B", 8},
-    {"rest.R", 8},
-    {"rest.G", 8},
-    {"rest.B", 8},
-    {"square.Y", 9},
-}};
 
-/// Whether a column is a sum of what the file has as a mean.
-bool hasMean(std::size_t column) { return column < 21 || (column > 22 && column < 26); }
+const std::vector<Column> COLUMN_NAMES = [] {
+    std::vector<Column> columns;
+    const auto add = [&](const char* name, std::string_view letters, uint layer, bool hasMean) {
+        for (const char letter : letters) columns.push_back({fmt::format("{}.{}", name, letter), layer, hasMean});
+    };
+    for (uint layer = 0; layer < LAYER_COUNT; layer++) add(layerNames[layer], "RGB", layer, true);
+    add("albedo", "RGB", ASK_ALBEDO, true);
+    add("normal", "XYZ", ASK_NORMAL, true);
+    add("depth", "Z", ASK_DEPTH, false); // the file has it over `covered`
+    add("covered", "Y", ASK_DEPTH, false);
+    add("bias", "RGB", ASK_BIAS, true);
+    for (const char* name : {"fine", "coarse", "rest"}) add(name, "RGB", ASK_NOISE, false);
+    add("square", "Y", ASK_BIAS, false);
+    return columns;
+}();
 
 std::string stateName(std::size_t run, std::size_t column) {
     return fmt::format("state{}.{}", run, COLUMN_NAMES[column].name);
@@ -120,7 +97,7 @@ void addRuns(Image& rows, std::span<const Pixel> pixels, std::span<const std::sp
     const std::size_t block = 256; // pixels that stay in the cache
     for (std::size_t run = 0; run < sums.size(); run++) {
         const std::size_t firstChannel = rows.channels.size();
-        const auto isResidue = [&](std::size_t k) { return run == 0 && exactMeans && hasMean(k); };
+        const auto isResidue = [&](std::size_t k) { return run == 0 && exactMeans && COLUMN_NAMES[k].hasMean; };
         for (const std::size_t k : columns)
             rows.channels.push_back({isResidue(k) ? residueName(k) : stateName(run, k),
                                      std::vector<float>(pixels.size()),

@@ -15,7 +15,7 @@ template <class Value> Json sums(const std::vector<std::pair<std::string, Value>
     return object;
 }
 
-Json photonsJson(const PhotonCounts& counts) {
+Json photonsJson(const PhotonLedger& counts) {
     return {{"emitted", counts.emitted},
             {"stored", counts.stored},
             {"absorbed", counts.absorbed},

@@ -1,6 +1,7 @@
 /// What a render did and what it took, as one JSON object.
 #pragma once
 #include "render/error_estimate.h"
+#include "render/photon_tracing.h"
 #include "shared.h"
 #include <cstdint>
 #include <filesystem>
@@ -11,15 +12,6 @@
 #include <vector>
 
 namespace vkpm {
-
-/// What became of the photons of one map over all passes; lost ones ran out of bounces or were not finite.
-struct PhotonCounts {
-    std::uint64_t emitted = 0;
-    std::uint64_t stored = 0;
-    std::uint64_t absorbed = 0;
-    std::uint64_t escaped = 0;
-    std::uint64_t lost = 0;
-};
 
 /// First gather radii of one map, world units: the same everywhere, or by region.
 struct GatherRadii {
@@ -40,8 +32,8 @@ struct Statistics {
     std::uint64_t rays = 0;                               // of every kind, over all passes
     std::uint64_t waits = 0;                              // of the host for the device, in all passes
     std::uint64_t dispatches = 0;                         // in all passes
-    PhotonCounts global{};
-    PhotonCounts caustic{};
+    PhotonLedger global{};
+    PhotonLedger caustic{};
     std::optional<GatherRadii> globalRadii{}; // absent with the map
     std::optional<GatherRadii> causticRadii{};
     float radiusFactor = 1; // of the last pass: its radii over those of the first

@@ -1,5 +1,6 @@
 /// Noise and bias of pixels, put together.
 #include "render/error_estimate.h"
+#include "scene/luminance.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,8 +52,6 @@ dvec3 likelyTruth(const std::vector<dvec3>& colors, const Pixel& pixel, uvec2 si
     const dvec3 spread = glm::max(squares / count - mean * mean, dvec3(1e-12));
     return (own * spread + mean * noise) / (spread + noise);
 }
-
-double luminance(const dvec3& color) { return glm::dot(color, dvec3(0.2126, 0.7152, 0.0722)); }
 
 /// The square of the bias of the luminance, less the part of it that is noise of its estimate: may be negative, so that
 /// means of it are right.

@@ -1,5 +1,6 @@
 /// Radii by the size of the scene and by the pass.
 #include "render/radius.h"
+#include "scene/box.h"
 #include "shared_photons.h"
 #include "shared_scene.h"
 #include <algorithm>
@@ -36,11 +37,6 @@ static Bounds middleOf(std::span<const vec3> places) {
 }
 
 static double diagonalOf(const Bounds& box) { return glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)); }
-
-static double reachOf(const Bounds& box) {
-    const vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-    return std::max({reach.x, reach.y, reach.z});
-}
 
 const std::size_t enoughForExtent = 100; // places
 

@@ -1,5 +1,6 @@
 /// Bounding boxes in float that are conservative: computed in double and rounded outward.
 #include "scene/box.h"
+#include <algorithm>
 #include <cmath>
 
 namespace vkpm {
@@ -21,6 +22,11 @@ vec3 roundedDown(dvec3 v) { return {roundedDown(v.x), roundedDown(v.y), roundedD
 vec3 roundedUp(dvec3 v) { return {roundedUp(v.x), roundedUp(v.y), roundedUp(v.z)}; }
 
 } // namespace
+
+double reachOf(const Bounds& box) {
+    const vec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
+    return std::max({corner.x, corner.y, corner.z});
+}
 
 Bounds scaled(const Bounds& box, int exponent) {
     const double factor = std::ldexp(1.0, exponent);

@@ -5,6 +5,14 @@
 
 namespace vkpm {
 
+/// The box about two.
+inline Bounds united(const Bounds& one, const Bounds& other) {
+    return {glm::min(one.low, other.low), glm::max(one.high, other.high)};
+}
+
+/// The greatest of a box's coordinates, signs aside.
+double reachOf(const Bounds& box);
+
 /// The box times 2^exponent; where that is not exact, it grows.
 Bounds scaled(const Bounds& box, int exponent);
 

@@ -116,10 +116,8 @@ void keepMessage(void* message, RTCError, const char* text) { *static_cast<std::
 
 Bounds boundsOf(std::span<const Primitive> primitives, uint triangleCount) {
     Bounds bounds;
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const Bounds box = boxOf(primitives[i], i >= triangleCount);
-        bounds = {glm::min(bounds.low, box.low), glm::max(bounds.high, box.high)};
-    }
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        bounds = united(bounds, boxOf(primitives[i], i >= triangleCount));
     const vec3 sides = bounds.high - bounds.low;
     if (!std::isfinite(sides.x + sides.y + sides.z))
         throw InputError("the scene's bounding box overflows 32-bit floats; make the scene smaller");
@@ -166,8 +164,7 @@ Bvh buildBvh(std::span<const Primitive> primitives, uint triangleCount) {
     const BvhHandle handle{rtcNewBVH(device.get())};
 
     const Bounds bounds = boundsOf(primitives, triangleCount);
-    const vec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-    BuildInput input{primitives, triangleCount, std::ilogb(std::max({reach.x, reach.y, reach.z, 1e-37f}))};
+    BuildInput input{primitives, triangleCount, std::ilogb(std::max(reachOf(bounds), double{1e-37f}))};
     std::vector<RTCBuildPrimitive> boxes = buildPrimitives(input);
     const RTCBuildArguments arguments = buildArguments(handle.get(), boxes, input);
     const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
@@ -179,6 +176,13 @@ Bvh buildBvh(std::span<const Primitive> primitives, uint triangleCount) {
     else flattening.append(*root);
     bvh.stackSize = depthBelow(bvh, 0);
     return bvh;
+}
+
+void addBvh(Scene& scene) {
+    Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
+    scene.nodes = std::move(bvh.nodes);
+    scene.leaves = std::move(bvh.leaves);
+    scene.stackSize = bvh.stackSize;
 }
 
 } // namespace vkpm

@@ -1,5 +1,6 @@
 /// Bounding volume hierarchies of triangles and spheres, built by Embree and laid out for the kernels.
 #pragma once
+#include "scene/scene.h"
 #include "shared_scene.h"
 #include <span>
 #include <vector>
@@ -18,5 +19,8 @@ struct Bvh {
 /// leaf. The same input gives the same hierarchy. Throws InputError if boxes overflow, std::runtime_error if Embree
 /// fails.
 Bvh buildBvh(std::span<const Primitive> primitives, uint triangleCount);
+
+/// Puts the hierarchy of a scene's primitives into the scene.
+void addBvh(Scene& scene);
 
 } // namespace vkpm

@@ -88,11 +88,6 @@ bool touchesOthers(const Scene& scene, const GlassShape& shape, dvec3 point, dou
     return false;
 }
 
-double reachOf(const Bounds& box) {
-    const vec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
-    return std::max({corner.x, corner.y, corner.z});
-}
-
 struct Measures {
     double volume = 0, area = 0; // the volume is negative if the outside is within
     double diagonal = 0;
@@ -120,8 +115,7 @@ bool isWithinGlass(const Scene& scene, const GlassShape& shape, const Bounds& bo
     for (std::size_t i = 0; i < scene.primitives.size(); i++) {
         const Primitive& p = scene.primitives[i];
         if ((i >= shape.first && i < shape.end) || scene.materials[p.material].kind != MATERIAL_GLASS) continue;
-        const Bounds one = boxOf(p, i >= scene.triangleCount);
-        around = {glm::min(around.low, one.low), glm::max(around.high, one.high)};
+        around = united(around, boxOf(p, i >= scene.triangleCount));
     }
     return glm::all(glm::lessThanEqual(around.low, box.low)) && glm::all(glm::greaterThanEqual(around.high, box.high));
 }
@@ -160,11 +154,7 @@ const double nextTo = 1e-2; // of the shape's diagonal
 
 Bounds boxOf(const Scene& scene, const GlassShape& shape) {
     Bounds box;
-    for (std::size_t i = shape.first; i < shape.end; i++) {
-        const Primitive& p = scene.primitives[i];
-        box = {glm::min(box.low, glm::min(p.a, glm::min(p.b, p.c))),
-               glm::max(box.high, glm::max(p.a, glm::max(p.b, p.c)))};
-    }
+    for (std::size_t i = shape.first; i < shape.end; i++) box = united(box, boxOf(scene.primitives[i], false));
     return box;
 }
 
@@ -188,8 +178,7 @@ bool glassMayTouchOpaque(const Scene& scene) {
     for (std::size_t i = 0; i < scene.triangleCount; i++) {
         const bool isGlass = scene.materials[scene.primitives[i].material].kind == MATERIAL_GLASS;
         boxes[isGlass].push_back(boxOf(scene.primitives[i], false));
-        about[isGlass] = {glm::min(about[isGlass].low, boxes[isGlass].back().low),
-                          glm::max(about[isGlass].high, boxes[isGlass].back().high)};
+        about[isGlass] = united(about[isGlass], boxes[isGlass].back());
     }
     for (int kind : {0, 1})
         std::erase_if(boxes[kind], [&](const Bounds& box) { return !areNear(box, about[1 - kind], apart); });

@@ -1,5 +1,6 @@
 /// Hashes and differences of scenes and settings.
 #include "scene/identity.h"
+#include "scene/hash.h"
 #include "scene/settings_json.h"
 #include <cstring>
 #include <fmt/format.h>
@@ -10,10 +11,10 @@ namespace {
 
 using nlohmann::json;
 
-/// FNV-1a (Fowler, Noll & Vo 1991) over words in place of bytes.
-class Hash {
+/// A hash of what arrays hold, word by word.
+class ArrayHash : public Hash {
 public:
-    void add(std::uint32_t word) { value = (value ^ word) * 0x100000001b3u; }
+    using Hash::add;
 
     template <class T> void add(const std::vector<T>& items) {
         static_assert(sizeof(T) % 4 == 0);
@@ -26,15 +27,10 @@ public:
         std::memcpy(words, &item, sizeof(T));
         for (const std::uint32_t word : words) add(word);
     }
-
-    std::string text() const { return fmt::format("{:016x}", value); }
-
-private:
-    std::uint64_t value = 0xcbf29ce484222325u;
 };
 
 std::string sceneHash(const Scene& scene) {
-    Hash hash;
+    ArrayHash hash;
     hash.add(scene.triangleCount);
     hash.add(scene.primitives);
     hash.add(scene.normals);

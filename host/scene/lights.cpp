@@ -1,6 +1,7 @@
 /// Area lights: flux and probabilities.
 #include "scene/lights.h"
 #include "scene/box.h"
+#include "scene/luminance.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 
 namespace vkpm {
 using glm::dvec3;
-
-double luminance(dvec3 color) { return glm::dot(color, dvec3{0.2126, 0.7152, 0.0722}); }
 
 dvec3 lightFlux(const Light& light) {
     const double sides = light.twoSided != 0 ? 2 : 1;
@@ -57,9 +56,7 @@ template <class Counts> static Target sphereOf(const Scene& scene, double wide, 
     Bounds box;
     for (std::size_t i = 0; i < scene.primitives.size(); i++) {
         const Primitive& p = scene.primitives[i];
-        if (!counts(p)) continue;
-        const Bounds one = boxOf(p, i >= scene.triangleCount);
-        box = {glm::min(box.low, one.low), glm::max(box.high, one.high)};
+        if (counts(p)) box = united(box, boxOf(p, i >= scene.triangleCount));
     }
     if (box.low.x > box.high.x) return {vec3{0}, 0};
     const dvec3 sides = dvec3{box.high} - dvec3{box.low};

@@ -6,9 +6,6 @@
 
 namespace vkpm {
 
-/// Luminance of linear Rec. 709 colours.
-double luminance(glm::dvec3 color);
-
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 

@@ -1,4 +1,5 @@
 /// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
+#include "scene/box.h"
 #include "scene/bvh.h"
 #include "scene/lights.h"
 #include "scene/reader.h"
@@ -38,8 +39,8 @@ View readView(Reader camera, const Coordinates& coordinates) {
 void readFilm(Reader film, Settings& settings) {
     if (const auto size = film.find("size")) {
         const std::vector<Reader> sides = size->elements(2, 2, "an array of 2 integers, [width, height]");
-        settings.size = {sides[0].integer(1, 65536), sides[1].integer(1, 65536)};
-        if (std::uint64_t{settings.size.x} * settings.size.y > (1u << 28u))
+        settings.size = {sides[0].integer(1, maxSide), sides[1].integer(1, maxSide)};
+        if (std::uint64_t{settings.size.x} * settings.size.y > maxPixels)
             size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y),
                        "allowed are 2^28 in all");
     }
@@ -58,8 +59,9 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto nearest = reader.find("nearest")) settings.nearest = nearest->integer(0, 1'000'000);
     if (const auto alpha = reader.find("alpha")) settings.alpha = alpha->number({0, 1, true});
     if (const auto kernel = reader.find("kernel"))
-        settings.kernel = static_cast<uint>(kernel->choice({"constant", "cone", "gauss", "epanechnikov"}));
-    if (const auto fresnel = reader.find("fresnel")) settings.schlick = fresnel->choice({"exact", "schlick"}) == 1;
+        settings.kernel = static_cast<uint>(kernel->choice({kernelNames.begin(), kernelNames.end()}));
+    if (const auto fresnel = reader.find("fresnel"))
+        settings.schlick = fresnel->choice({fresnelNames.begin(), fresnelNames.end()}) == 1;
     if (const auto layers = reader.find("layers")) {
         settings.layers = 0;
         for (const Reader& layer : layers->elements(1, layerNames.size(), "an array of 1 to 10 names of layers"))
@@ -109,8 +111,7 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
 void checkExtent(const Scene& scene, const std::filesystem::path& file) {
     const dvec3 sides = dvec3{scene.bounds.high} - dvec3{scene.bounds.low};
     const double extent = scene.coordinates.unit * std::max({sides.x, sides.y, sides.z});
-    const vec3 corner = glm::max(glm::abs(scene.bounds.low), glm::abs(scene.bounds.high));
-    const double reach = scene.coordinates.unit * double{std::max({corner.x, corner.y, corner.z})};
+    const double reach = scene.coordinates.unit * reachOf(scene.bounds);
     if (!(extent >= 1e-9 && reach <= 1e12))
         refuseFile(
             file, ": /shapes",
@@ -165,10 +166,7 @@ Scene loadScene(const std::filesystem::path& file) {
     scene.lit = sphereOfLit(scene);
     scene.near = sphereOfNear(scene);
 
-    Bvh bvh = buildBvh(scene.primitives, scene.triangleCount);
-    scene.nodes = std::move(bvh.nodes);
-    scene.leaves = std::move(bvh.leaves);
-    scene.stackSize = bvh.stackSize;
+    addBvh(scene);
     return scene;
 }
 

@@ -22,7 +22,7 @@ struct Mesh {
     std::vector<std::string> warnings;
 };
 
-/// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file missingRequirements,
+/// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file lacks,
 /// weighted by angle (Thuermer & Wuethrich 1998). Throws InputError with file:line for what is not sound.
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness);
 

@@ -4,30 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace vkpm {
 using nlohmann::json;
 
 namespace {
-
-/// For what is not ASCII the function of C is undefined.
-int toLower(char c) { return std::tolower(static_cast<unsigned char>(c)); }
-
-/// Levenshtein's distance: insertions, deletions and substitutions that turn one word into the other.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substituted = diagonal + (toLower(a[i]) != toLower(b[j]));
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 std::string describeRange(Range range) {
     constexpr float largest = std::numeric_limits<float>::max();
@@ -46,31 +27,6 @@ std::string pointerStep(std::string_view key) {
 }
 
 } // namespace
-
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
-    std::string nearest;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    for (const std::string& candidate : candidates) {
-        if (candidate.size() > word.size() + least) continue;
-        const std::size_t distance = editDistance(word.substr(0, 64), candidate);
-        if (distance < least && distance < candidate.size()) {
-            least = distance;
-            nearest = candidate;
-        }
-    }
-    return nearest;
-}
-
-std::string quotedList(const std::vector<std::string>& words) {
-    std::string list;
-    constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i == most) return list + fmt::format(" and {} more", words.size() - most);
-        if (i > 0) list += i + 1 == words.size() ? " or " : ", ";
-        list += fmt::format("\"{}\"", printable(words[i], 40));
-    }
-    return list;
-}
 
 void Reader::fail(std::string_view found, std::string_view allowed) const {
     refuseFile(*file, ": " + (pointer.empty() ? "/" : pointer), found, allowed);

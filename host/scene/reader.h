@@ -72,10 +72,4 @@ private:
     std::vector<std::string> known;
 };
 
-/// The candidate that is nearest to a misspelt word by edit distance; empty if none is near.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
-
-/// `"a", "b" or "c"`, for messages; of many words the first 20.
-std::string quotedList(const std::vector<std::string>& words);
-
 } // namespace vkpm

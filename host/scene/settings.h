@@ -13,7 +13,13 @@ const uint ASK_ALBEDO = 5, ASK_NORMAL = 6, ASK_DEPTH = 7, ASK_NOISE = 8, ASK_BIA
 /// Of INTEGRATOR_PHOTON and so on, and of DENSITY_KERNEL_CONSTANT and so on, by number.
 inline constexpr std::array integratorNames{"photon", "path", "direct", "photon-map", "light"};
 inline constexpr std::array kernelNames{"constant", "cone", "gauss", "epanechnikov"};
+/// Of `schlick`, `showCaustic` and `showPoints`.
+inline constexpr std::array fresnelNames{"exact", "schlick"};
+inline constexpr std::array mapNames{"global", "caustic"};
+inline constexpr std::array showNames{"estimate", "points"};
 const uint maxGatherRays = 1024;
+const uint maxSide = 65536; // of a picture, in pixels
+const uint maxPixels = 1u << 28;
 const uint allLayers = (1u << layerNames.size()) - 1;
 
 struct Settings {

@@ -1,6 +1,6 @@
 /// Writing settings as JSON.
 #include "scene/settings_json.h"
-#include <fmt/format.h>
+#include "scene/hash.h"
 #include <nlohmann/json.hpp>
 
 namespace vkpm {
@@ -14,7 +14,7 @@ std::string settingsJson(const Settings& s) {
                                 {"nearest", s.nearest},
                                 {"alpha", s.alpha},
                                 {"kernel", kernelNames[s.kernel]},
-                                {"fresnel", s.schlick ? "schlick" : "exact"},
+                                {"fresnel", fresnelNames[s.schlick]},
                                 {"seed", s.seed}};
     if (s.layers != allLayers) {
         for (uint i = 0; i < layerNames.size(); i++)
@@ -23,16 +23,16 @@ std::string settingsJson(const Settings& s) {
     if (s.radius) json["radius"] = *s.radius;
     if (s.causticRadius) json["causticRadius"] = *s.causticRadius;
     if (s.integrator == INTEGRATOR_PHOTON_MAP) {
-        json["map"] = s.showCaustic ? "caustic" : "global";
-        json["show"] = s.showPoints ? "points" : "estimate";
+        json["map"] = mapNames[s.showCaustic];
+        json["show"] = showNames[s.showPoints];
     }
     return json.dump();
 }
 
 std::string hashText(const std::string& text) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return fmt::format("{:016x}", hash);
+    Hash hash;
+    for (const char c : text) hash.add(static_cast<unsigned char>(c));
+    return hash.text();
 }
 
 } // namespace vkpm

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <numeric>
 
 namespace vkpm {
 namespace fs = std::filesystem;
@@ -25,6 +26,24 @@ std::size_t characterLength(std::string_view text) {
                         (first == 0xc2 && byte(1) < 0xa0) || first < 0xc2;
     const bool isOutside = (first == 0xed && byte(1) >= 0xa0) || (first == 0xf4 && byte(1) >= 0x90) || first > 0xf4;
     return isLong || isOutside ? 0 : length;
+}
+
+/// For what is not ASCII the function of C is undefined.
+int toLower(char c) { return std::tolower(static_cast<unsigned char>(c)); }
+
+/// Levenshtein's distance: insertions, deletions and substitutions that turn one word into the other.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t substituted = diagonal + (toLower(a[i]) != toLower(b[j]));
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
 }
 
 [[noreturn]] void refuseZero(const fs::path& file, const std::string& text, std::size_t place) {
@@ -86,6 +105,31 @@ std::string printable(std::string_view text, std::size_t most) {
         rest.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return isLong ? shown + "..." + printable(end, end.size()) : shown;
+}
+
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        if (candidate.size() > word.size() + least) continue;
+        const std::size_t distance = editDistance(word.substr(0, 64), candidate);
+        if (distance < least && distance < candidate.size()) {
+            least = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+std::string quotedList(const std::vector<std::string>& words) {
+    std::string list;
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i == most) return list + fmt::format(" and {} more", words.size() - most);
+        if (i > 0) list += i + 1 == words.size() ? " or " : ", ";
+        list += fmt::format("\"{}\"", printable(words[i], 40));
+    }
+    return list;
 }
 
 void refuseFile(const fs::path& file, std::string_view place, std::string_view found, std::string_view allowed) {

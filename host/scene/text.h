@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vkpm {
 
@@ -20,6 +21,12 @@ std::string readText(const std::filesystem::path& file, std::uint64_t most, std:
 /// Text as a terminal may show it: control characters and what is not UTF-8 as \xNN, the middle left out beyond `most`
 /// bytes.
 std::string printable(std::string_view text, std::size_t most = 300);
+
+/// The candidate that is nearest to a misspelt word by edit distance; empty if none is near.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `"a", "b" or "c"`, for messages; of many words the first 20.
+std::string quotedList(const std::vector<std::string>& words);
 
 /// Throws InputError, "file<place>: found; allowed"; the place is ":line", ":line:column" or ": /json/pointer".
 [[noreturn]] void refuseFile(const std::filesystem::path& file, std::string_view place, std::string_view found,
