@@ -1,19 +1,18 @@
-// Writes the list of each kind of flag, in the order of the list that was flagged, and its queue: the last step of a
-// compaction.
+// Writes the list of each kind of flag, in the order of the list that was flagged, and its queue. A group takes a block
+// of places, an invocation a part of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
+#include "compaction.glsl"
 #include "shared_paths.h"
 
 ARGS(CompactArgs)
 
-// Where a kind starts in the new list; blocks may be 0.
-uint firstOf(uint kind, uint blocks) { return args.sums.at[kind * blocks]; }
+const uint PART = COMPACTION_BLOCK / GROUP;
+shared uvec4 counts[GROUP];
 
 // The queue that the next steps run on.
-void writeQueue(uint kind, uint blocks) {
-    uint first = firstOf(kind, blocks);
-    uint count = firstOf(kind + 1u, blocks) - first;
+void writeQueue(uint kind, uint first, uint count) {
     Queue old = args.queues.at[kind];
     uint groups = (count + GROUP - 1u) / GROUP;
     uint columns = min(groups, 65535u);
@@ -25,17 +24,42 @@ void main() {
     uint count = args.queues.at[0].count;
     uint first = args.queues.at[0].first;
     uint blocks = (count + COMPACTION_BLOCK - 1u) / COMPACTION_BLOCK;
-    uint block = threadIndex();
-    if (block < args.kinds) writeQueue(block, blocks);
-    if (block >= blocks) return;
+    uint block = groupIndex();
+    uint index = gl_LocalInvocationIndex;
 
-    // All kinds there may be, so that the loops are unrolled; one that there is not has no flags.
+    // The sums for the flags of the next round.
+    uint all = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GROUP;
+    for (uint i = threadIndex(); i < COMPACTION_SUMS; i += all) args.nextFlags.at[i] = 0u;
+
+    // Where each kind starts in the new list, and how many of it the blocks before have.
     uint next[EYE_QUEUES];
-    for (uint kind = 0u; kind < EYE_QUEUES; kind++)
-        next[kind] = args.sums.at[min(kind, args.kinds - 1u) * blocks + block];
-    uint last = min((block + 1u) * COMPACTION_BLOCK, count);
-    for (uint place = block * COMPACTION_BLOCK; place < last; place++) {
-        uint flags = args.flags.at[place];
+    uint start = 0u;
+    for (uint kind = 0u; kind < args.kinds; kind++) {
+        uint total = 0u, before = 0u;
+        for (uint i = 0u; i < blocks; i++) {
+            uint sum = args.flags.at[sumAt(kind, i)];
+            if (i < block) before += sum;
+            total += sum;
+        }
+        if (block == 0u && index == 0u) writeQueue(kind, start, total);
+        next[kind] = start + before;
+        start += total;
+    }
+
+    // How many of each kind the parts before have, of all kinds that there may be, so that loops are unrolled.
+    uint begin = min(block * COMPACTION_BLOCK + index * PART, count);
+    uint end = min(begin + PART, min((block + 1u) * COMPACTION_BLOCK, count));
+    uvec4 own = uvec4(0u);
+    for (uint place = begin; place < end; place++)
+        own += uvec4(args.flags.at[COMPACTION_SUMS + place]) >> uvec4(0u, 1u, 2u, 3u) & 1u;
+    counts[index] = own;
+    barrier();
+    uvec4 earlier = uvec4(0u);
+    for (uint i = 0u; i < index; i++) earlier += counts[i];
+
+    for (uint kind = 0u; kind < EYE_QUEUES; kind++) next[kind] = kind < args.kinds ? next[kind] + earlier[kind] : 0u;
+    for (uint place = begin; place < end; place++) {
+        uint flags = args.flags.at[COMPACTION_SUMS + place];
         uint slot = args.list.at[first + place];
         for (uint kind = 0u; kind < EYE_QUEUES; kind++)
             if ((flags >> kind & 1u) != 0u) args.nextList.at[next[kind]++] = slot;

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
+#include "compaction.glsl"
 #include "feature_checks.glsl"
 #include "guide.glsl"
 #include "light.glsl"
@@ -53,6 +54,6 @@ void main() {
     args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;
-    args.flags.at[slot] = weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u;
+    putFlags(args.flags, slot, PHOTON_QUEUES, weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u);
     if (!(weight > 0.0)) atomicAdd(args.status.at[0].escaped, 1u);
 }

@@ -3,6 +3,7 @@
 // may take stays under way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "compaction.glsl"
 #include "gather.glsl"
 #include "shade.glsl"
 #include "trace_path.glsl"
@@ -56,7 +57,7 @@ void main() {
         addContributions(slot, vertex);
         if (vertex.split.flags != NONE) args.splits.at[slot] = vertex.split;
     }
-    args.flags.at[place] = queues & 1u << QUEUE_CONTINUE;
+    putFlags(args.flags, place, 1u, queues & 1u << QUEUE_CONTINUE);
     atomicAdd(args.status.at[0].paths, rays);
     atomicAdd(args.status.at[0].shadowRays, shadowRays);
     if ((queues & 1u << QUEUE_CONTINUE) == 0u) return;

@@ -2,6 +2,7 @@
 // dispatch a bounce. One that has not ended after as many bounces as a dispatch may take stays under way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "compaction.glsl"
 #include "scatter.glsl"
 #include "trace_path.glsl"
 
@@ -22,7 +23,7 @@ void main() {
         if (arrives) keep(deposit);
         rays++;
     }
-    args.flags.at[place] = uint(outcome == OUTCOME_GOES_ON) << QUEUE_CONTINUE;
+    putFlags(args.flags, place, PHOTON_QUEUES, uint(outcome == OUTCOME_GOES_ON) << QUEUE_CONTINUE);
     count(outcome);
     atomicAdd(args.status.at[0].rays, rays);
     if (outcome != OUTCOME_GOES_ON) return;

@@ -1,6 +1,7 @@
 // A bounce of photons: see scatter.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "compaction.glsl"
 #include "scatter.glsl"
 
 void main() {
@@ -15,6 +16,6 @@ void main() {
     uint outcome = scatterPhoton(slot, args.bounce, path, args.hits.at[slot], arrives, deposit);
     if (outcome == OUTCOME_GOES_ON) args.paths.at[slot] = path;
     if (arrives) keep(deposit);
-    args.flags.at[place] = uint(outcome == OUTCOME_GOES_ON) << QUEUE_CONTINUE;
+    putFlags(args.flags, place, PHOTON_QUEUES, uint(outcome == OUTCOME_GOES_ON) << QUEUE_CONTINUE);
     count(outcome);
 }

@@ -1,6 +1,7 @@
 // A bounce of eye paths: see shade.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "compaction.glsl"
 #include "shade.glsl"
 
 void main() {
@@ -9,7 +10,7 @@ void main() {
     if (place >= queue.count) return;
     uint slot = args.list.at[queue.first + place];
     Vertex vertex = shade(slot, args.bounce, args.paths.at[slot], args.hits.at[slot], true);
-    args.flags.at[place] = vertex.queues;
+    putFlags(args.flags, place, EYE_QUEUES, vertex.queues);
     if (vertex.emissionColumn != NONE)
         addToColumns(args.samples, args.stride, vertex.emissionColumn, slot, vertex.emission);
     if ((vertex.queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = vertex.path;

@@ -114,8 +114,7 @@ FEATURES(X)
 
 const uint NONE = 0xffffffffu;
 
-const uint GROUP = 64u;            // invocations of a work group, of every kernel
-const uint COMPACTION_BLOCK = 64u; // places of a list that an invocation compacts
+const uint GROUP = 64u; // invocations of a work group, of every kernel
 
 SHARED_END
 #endif

@@ -76,20 +76,17 @@ struct TraceArgs {
     PTR(uint) list;
 };
 
-struct CompactCountArgs {
-    PTR(Queue) queue;
-    PTR(uint) flags;
-    PTR(uint) sums; // [kind][block]
-    uint kinds;
-};
+const uint COMPACTION_BLOCK = 4096u; // places of a list that a group compacts
+const uint MAX_COMPACTION_BLOCKS = 1024u;
+const uint COMPACTION_SUMS = MAX_COMPACTION_BLOCKS * EYE_QUEUES; // words before the flags
 
 struct CompactArgs {
     PTR(Queue) queues; // one per kind; the first is the one that is compacted
     PTR(uint) list;
-    PTR(uint) flags;
-    PTR(uint) sums;
+    PTR(uint) flags; // see compaction.glsl
     PTR(Queue) nextQueues;
     PTR(uint) nextList;
+    PTR(uint) nextFlags; // its sums become 0
     uint kinds;
 };
 

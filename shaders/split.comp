@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
+#include "compaction.glsl"
 #include "direct.glsl"
 #include "directions.glsl"
 #include "film_layout.glsl"
@@ -46,5 +47,5 @@ void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
     args.list.at[slot] = slot;
-    args.flags.at[slot] = send(slot);
+    putFlags(args.flags, slot, EYE_QUEUES, send(slot));
 }

@@ -26,7 +26,12 @@ Lists readLists(const Compaction& compaction, uint kinds) {
 }
 
 Lists step(Compaction& compaction, const std::vector<uint>& flags, uint kinds) {
-    compaction.flags.upload(flags);
+    std::vector<uint> sums(COMPACTION_SUMS);
+    for (std::size_t i = 0; i < flags.size(); i++)
+        for (uint kind = 0; kind < kinds; kind++)
+            sums[kind * MAX_COMPACTION_BLOCKS + i / COMPACTION_BLOCK] += flags[i] >> kind & 1;
+    compaction.flags.upload(sums);
+    compaction.flags.upload(flags, COMPACTION_SUMS);
     Recording recording(testGpu());
     compaction.compact(recording);
     recording.submit();

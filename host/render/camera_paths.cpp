@@ -53,7 +53,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
 uint CameraPaths::commonBounces(uint sequence) const {
     if (settings.integrator == INTEGRATOR_PATH) return 16;
     if (sequence == SAMPLES_EYE) return features.hasGlass || features.hasMirror ? 4 : 1;
-    return features.hasGlass ? 5 : 3;
+    return features.hasGlass ? 4 : 3;
 }
 
 ShadeArgs CameraPaths::shadeArgs(const Paths& of, uint bounce) const {

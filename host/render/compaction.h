@@ -2,12 +2,11 @@
 #pragma once
 #include "gpu/recording.h"
 #include "shared_paths.h"
-#include "shared_sort.h"
 
 namespace vkpm {
 
-/// Queues of paths and the lists they point into. Paths are flagged by a kernel; compact() makes a list of each kind of
-/// flag, in the order of the paths, by prefix sums, so that nothing depends on scheduling.
+/// Queues of paths and the lists they point into. Paths are flagged by a kernel (see compaction.glsl); compact() makes
+/// a list of each kind of flag, in the order of the paths, by prefix sums, so that nothing depends on scheduling.
 class Compaction {
 public:
     /// For up to `capacity` paths and `kinds` kinds of flags; `name` goes before the names of the buffers.
@@ -20,17 +19,15 @@ public:
 
     Buffer<Queue> queues; // one per kind
     Buffer<uint> list;    // of paths, queue after queue
-    Buffer<uint> flags;   // by place in the first queue
+    Buffer<uint> flags;   // sums, then by place in the first queue
 
 private:
     uint kinds;
-    uint blocks; // of places, of a full list
     Buffer<Queue> nextQueues;
     Buffer<uint> nextList;
-    Buffer<uint> sums;
-    Kernel<CompactCountArgs> tally;
-    Kernel<ScanArgs> scan;
-    Kernel<CompactArgs> scatter;
+    Buffer<uint> nextFlags;
+    uint blocks; // of places, of a full list
+    Kernel<CompactArgs> kernel;
 };
 
 } // namespace vkpm

@@ -1,6 +1,7 @@
 /// The film, and its means on the host.
 #include "render/film.h"
 #include "render/noise.h"
+#include "scene/luminance.h"
 #include "shared_film.h"
 #include "shared_layers.h"
 #include "shared_paths.h"
@@ -94,7 +95,7 @@ Pixel Total::pixel(double n) const {
     pixel.mean.depth = float(depth / n);
     pixel.mean.covered = float(covered / n);
     pixel.mean.bias = vec3(bias / n);
-    const double mean = glm::dot(bias, dvec3(0.2126, 0.7152, 0.0722)) / n;
+    const double mean = luminance(bias) / n;
     if (n > 1) pixel.biasNoise = float(std::sqrt(std::max(0.0, square / n - mean * mean) / (n - 1)));
     return pixel;
 }

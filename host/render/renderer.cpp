@@ -1,5 +1,6 @@
 /// Stages and their order.
 #include "render/renderer.h"
+#include "scene/luminance.h"
 
 namespace vkpm {
 
@@ -11,10 +12,10 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, BatchSi
 
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const Features& features,
                    BatchSizes batchSizes)
-    : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings),
-      flux(glm::dot(input.flux, vec3(0.2126f, 0.7152f, 0.0722f))), batches(batchSizes),
-      global(construct(MapKind::global, extentOf(input))), caustic(construct(MapKind::caustic, extentOf(input))),
-      pilot(input, settings), film(gpu, settings.size, sceneHas) {
+    : gpu(device), settings(set), sceneHas(features), scene(gpu, input, settings), flux(luminance(input.flux)),
+      batches(batchSizes), global(construct(MapKind::global, extentOf(input))),
+      caustic(construct(MapKind::caustic, extentOf(input))), pilot(input, settings),
+      film(gpu, settings.size, sceneHas) {
     constructCamera();
 }
 
