@@ -1,7 +1,15 @@
-// Answers the queries of a queue: see gather.glsl.
+// Adds what the photon map estimates at each point asked for, and by how much blur makes that wrong. A disc of radius r
+// has the expectation E + c r^2 Laplace(E) + O(r^4), where c is the kernel's (Silverman 1986, section 4.3; 1/8 for the
+// constant one): the difference to a disc of half the area is half of the bias (as in Hachisuka, Jarosz & Jensen 2010,
+// from two radii).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gather.glsl"
+#include "common.glsl"
+#include "density.glsl"
+#include "film_layout.glsl"
+#include "radius_field.glsl"
+#include "shared_camera.h"
+#include "shared_film.h"
 #include "shared_paths.h"
 
 ARGS(GatherArgs)
@@ -12,9 +20,19 @@ void main() {
     uint slot = args.list.at[queue.first + threadIndex()];
     Query query = args.queries.at[slot];
     if (query.column == NONE) return;
-    vec3 radiance, bias;
-    if (!gather(args.map, query, radiance, bias)) return;
-    if (hasBias) addToColumns(args.samples, args.stride, COLUMN_BIAS, slot, bias);
-    addToColumns(args.samples, args.stride, query.column, slot, radiance);
-    if (args.map.partial != 0u) args.queries.at[slot].column = NONE;
+    float radius = hasNearest && args.map.nearest > 0u
+                       ? nearestRadius(args.map, query, args.map.nearest) * args.map.shrink
+                       : radiusAt(args.map, query.position);
+    if (args.map.partial != 0u) {
+        // What is narrower than a pixel is not seen, and most paths from the eye would miss it.
+        radius = radius > 0.0 ? max(radius, args.map.shrink * query.footprint) : GREATEST;
+        if (radius > args.map.radius) return;
+        args.queries.at[slot].column = NONE;
+    }
+    vec3 inner;
+    vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
+    if (hasBias)
+        addToColumns(args.samples, args.stride, COLUMN_BIAS, slot,
+                     2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
+    addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
 }

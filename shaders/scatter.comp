@@ -1,8 +1,10 @@
-// A bounce of photons: see scatter.glsl.
+// Takes photons a number of bounces further, or to their ends; see scatter.glsl. When few are left, many bounces in one
+// dispatch cost less than a dispatch each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compaction.glsl"
 #include "scatter.glsl"
+#include "trace_path.glsl"
 
 void main() {
     Queue queue = args.queue.at[0];
@@ -11,11 +13,16 @@ void main() {
 
     uint slot = args.list.at[queue.first + place];
     Path path = args.paths.at[slot];
-    bool arrives;
-    PhotonDeposit deposit;
-    uint outcome = scatterPhoton(slot, args.bounce, path, args.hits.at[slot], arrives, deposit);
+    uint outcome = OUTCOME_GOES_ON, rays = 0u;
+    while (outcome == OUTCOME_GOES_ON && rays < args.bounces) {
+        Hit hit = tracePath(args.scene.at[0], path);
+        bool arrives;
+        PhotonDeposit deposit;
+        outcome = scatterPhoton(slot, args.bounce + rays, path, hit, arrives, deposit);
+        if (arrives) keep(deposit);
+        rays++;
+    }
     if (outcome == OUTCOME_GOES_ON) args.paths.at[slot] = path;
-    if (arrives) keep(deposit);
     putFlags(args.flags, place, PHOTON_QUEUES, uint(outcome == OUTCOME_GOES_ON) << QUEUE_CONTINUE);
-    count(outcome);
+    count(outcome, rays);
 }

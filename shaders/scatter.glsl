@@ -128,12 +128,14 @@ void keep(PhotonDeposit deposit) {
 }
 
 // The ledger; sums of integers depend neither on their order nor on which lanes are together.
-void count(uint outcome) {
+void count(uint outcome, uint rays) {
     uint escaped = subgroupAdd(uint(outcome == OUTCOME_ESCAPED));
     uint absorbed = subgroupAdd(uint(outcome == OUTCOME_ABSORBED));
+    uint traced = subgroupAdd(rays);
     if (subgroupElect()) {
         if (escaped > 0u) atomicAdd(args.status.at[0].escaped, escaped);
         if (absorbed > 0u) atomicAdd(args.status.at[0].absorbed, absorbed);
+        atomicAdd(args.status.at[0].rays, traced);
     }
 }
 

@@ -9,7 +9,7 @@ void main() {
     uint place = threadIndex();
     if (place >= queue.count) return;
     uint slot = args.list.at[queue.first + place];
-    Vertex vertex = shade(slot, args.bounce, args.paths.at[slot], args.hits.at[slot], true);
+    Vertex vertex = shade(slot, args.bounce, args.paths.at[slot], args.hits.at[slot]);
     putFlags(args.flags, place, EYE_QUEUES, vertex.queues);
     if (vertex.emissionColumn != NONE)
         addToColumns(args.samples, args.stride, vertex.emissionColumn, slot, vertex.emission);

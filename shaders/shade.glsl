@@ -157,8 +157,8 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
 // Whether light that is found beyond a specular vertex has a layer to go to.
 bool continuesAfterSpecular(Path path) { return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer; }
 
-// A path of a slot at the hit of its ray. The first surface that the eye sees goes to the samples, if it may be that.
-Vertex shade(uint slot, uint bounce, Path path, Hit hit, const bool mayBeFirst) {
+// A path of a slot at the hit of its ray. The first surface that the eye sees goes to the samples.
+Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     Vertex vertex;
     vertex.queues = 0u;
     vertex.emissionColumn = NONE;
@@ -170,7 +170,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit, const bool mayBeFirst) 
     requireSurface(scene, hit.primitive, material);
     if (checksFeatures) require(scene, activeIntegrator() != args.pass.at[0].integrator, false, id_integrator);
     path.distanceSinceDiffuse += hit.t;
-    if (mayBeFirst && bounce == 0u) {
+    if (bounce == 0u) {
         if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
         if (hasDepth) {

@@ -42,8 +42,6 @@ BUFFER(Split)
 
 /// What the paths of a pass have in common.
 struct CameraPass {
-    ADDRESS(PhotonMap) maps; // of narrow discs, the narrowest first; that of caustics; the global one
-    uint narrow;             // how many of narrow discs there are
     uint seed;
     uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
     float nearDistance; // a gather ray shorter than this goes on
@@ -51,14 +49,6 @@ struct CameraPass {
     uint integrator;    // INTEGRATOR_...
 };
 BUFFER(CameraPass)
-
-/// What the host hears of the paths that were taken to their ends, see finish_paths.comp.
-struct CameraStatus {
-    uint unfinished; // paths that go on after FINISH_BOUNCES
-    uint paths;      // rays
-    uint shadowRays;
-};
-BUFFER(CameraStatus)
 
 struct EyeArgs {
     PTR(DeviceScene) scene;
@@ -88,7 +78,6 @@ struct ShadeArgs {
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
-    PTR(CameraStatus) status;
     uint stride;
     uint firstPixel;
     uint sequence; // SAMPLES_...

@@ -51,13 +51,11 @@ struct Status {
     uint deposits;                    // photons for the map, whether there was room or not
     uint absorbed;                    // photons
     uint escaped;                     // photons that left the scene or missed what they were aimed at
-    uint rays;                        // of paths that were taken to their ends, see finish_photons.comp
-    uint unfinished;                  // of these, paths that go on after FINISH_BOUNCES
+    uint rays;                        // of photons
     uint nonfinite[LAYER_COUNT + 1u]; // samples by layer, and photons
 };
 const uint NONFINITE_PHOTON = LAYER_COUNT;
-const uint FINISH_BOUNCES = 250u; // of a path in one dispatch, so that none takes long
-const uint MAX_BOUNCES = 10000u;  // of a path
+const uint MAX_BOUNCES = 10000u; // of a path
 BUFFER(Status)
 
 // Bits of a path's flags after a step; bit k puts the path into queue k.

@@ -69,7 +69,6 @@ struct EmitArgs {
 struct ScatterArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
-    PTR(Hit) hits;
     PTR(PhotonDeposit) deposits;
     PTR(uint) counts; // of deposits, by path
     PTR(Queue) queue;
@@ -80,7 +79,8 @@ struct ScatterArgs {
     uint firstPhoton;
     uint pass;
     uint seed;
-    uint bounce;
+    uint bounce;  // the first
+    uint bounces; // how many at most
     uint caustic;
 };
 
@@ -109,7 +109,6 @@ struct PhotonMap {
     uint kernel;        // KERNEL_...
     uint nearest;       // the radius is the distance of the k-th nearest; 0: not so
 };
-BUFFER(PhotonMap)
 
 #ifdef __cplusplus
 static_assert(sizeof(PhotonMap) == 3 * 8 + 10 * 4, "no padding, as GLSL has none");

@@ -1,4 +1,4 @@
-/// The camera loop: eye, then trace, shade, shadow and gather, a bounce at a time; the last paths to their ends.
+/// The camera loop: eye, then rounds of trace, shade, shadow and gather until no path is under way.
 #include "render/camera_paths.h"
 #include "render/features.h"
 #include "shared_camera.h"
@@ -14,10 +14,10 @@ namespace vkpm {
 // they cover more.
 const float pixelReach = 2, rayReach = 8;
 
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left, where it has to
+const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
 
 RayCounts CameraBatch::rays() const {
-    RayCounts rays{status.paths, status.shadowRays};
+    RayCounts rays;
     for (const auto& sequence : queues) {
         rays.paths += sequence[QUEUE_CONTINUE].base;
         rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
@@ -30,8 +30,8 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
                          uint batchSize)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batchSize)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      common(gpu, "camera pass", 1), status(gpu, "camera status", 1), eye(gpu, "eye", features),
-      traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
+      common(gpu, "camera pass", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features),
+      shade(gpu, "shade", features) {
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
     if (asksLights(features, settings)) {
         shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);
@@ -45,20 +45,6 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
     }
-    if (!settings.showPoints) finishKernel.emplace(gpu, "finish_paths", features);
-}
-
-/// Bounces that all paths take together, so that few are left then. The number does not depend on how many, as the bits
-/// of a picture may, where kernels round differently, depend on it.
-uint CameraPaths::commonBounces(uint sequence) const {
-    if (settings.integrator == INTEGRATOR_PATH) return 16;
-    if (sequence == SAMPLES_EYE) return features.hasGlass || features.hasMirror ? 4 : 1;
-    return features.hasGlass ? 4 : 3;
-}
-
-ShadeArgs CameraPaths::shadeArgs(const Paths& of, uint bounce) const {
-    return {scene.address,   common,           paths,  hits, samples,  shadowRays,  queries,  splits, compaction.queues,
-            compaction.list, compaction.flags, status, size, of.first, of.sequence, of.index, bounce};
 }
 
 void CameraPaths::castShadowRays(Recording& recording) {
@@ -86,7 +72,9 @@ void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMa
 void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounce) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
-    recording.run(shade, queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
+    recording.run(shade, queues, QUEUE_CONTINUE,
+                  {scene.address, common, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list,
+                   compaction.flags, size, of.first, of.sequence, of.index, bounce});
     compaction.compact(recording);
 
     const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
@@ -96,20 +84,9 @@ void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounc
     if (!splits) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);
 }
 
-/// The paths of a queue from a bounce on.
-void CameraPaths::recordPaths(Recording& recording, const Paths& of, uint bounce,
+/// The paths of a queue from a bounce on, until the device says that none is left.
+void CameraPaths::followPaths(Recording& recording, const Paths& of, uint bounce,
                               std::array<Queue, EYE_QUEUES>& queues) {
-    if (!finishKernel || maps.marks) return followBounces(recording, of, bounce, queues);
-    for (const uint end = bounce + commonBounces(of.sequence); bounce < end; bounce++)
-        recordBounce(recording, of, bounce);
-    recording.read(compaction.queues, std::span(queues));
-    if (endsLate) followEnds(recording, of, bounce);
-    else recording.run(*finishKernel, compaction.queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
-}
-
-/// Bounce after bounce, until the device says that no path is left.
-void CameraPaths::followBounces(Recording& recording, const Paths& of, uint bounce,
-                                std::array<Queue, EYE_QUEUES>& queues) {
     do {
         for (uint i = 0; i < bouncesAtOnce; i++) recordBounce(recording, of, bounce++);
         recording.read(compaction.queues, std::span(queues));
@@ -117,50 +94,25 @@ void CameraPaths::followBounces(Recording& recording, const Paths& of, uint boun
     } while (queues[QUEUE_CONTINUE].count > 0 && bounce < MAX_BOUNCES);
 }
 
-/// The last paths, until none is left or all have had MAX_BOUNCES.
-void CameraPaths::followEnds(Recording& recording, const Paths& of, uint bounce) {
-    Queue queue{};
-    do {
-        recording.run(*finishKernel, compaction.queues, QUEUE_CONTINUE, shadeArgs(of, bounce));
-        compaction.compact(recording);
-        recording.read(compaction.queues, QUEUE_CONTINUE, queue);
-        recording.submit();
-        bounce += FINISH_BOUNCES;
-    } while (queue.count > 0 && bounce < MAX_BOUNCES);
-}
-
 void CameraPaths::begin(Recording& recording, uint index, const PhotonMaps& asked) {
     pass = index;
     maps = asked;
-    std::vector<PhotonMap> all = maps.narrow;
-    all.push_back(maps.caustic);
-    all.push_back(maps.global);
-    if (commonMaps.size() != all.size()) {
-        commonMaps = {};
-        commonMaps = Buffer<PhotonMap>(gpu, "camera maps", all.size());
-    }
-    const CameraPass shared{.maps = commonMaps,
-                            .narrow = static_cast<uint>(maps.narrow.size()),
-                            .seed = settings.seed,
+    const CameraPass shared{.seed = settings.seed,
                             .caustics = features.hasCausticMap,
                             .nearDistance = maps.nearDistance,
                             .pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y),
                             .integrator = settings.integrator};
-    recording.write(commonMaps, std::span<const PhotonMap>(all));
     recording.write(common, std::span(&shared, 1));
 }
 
 void CameraPaths::record(Recording& recording, CameraBatch& batch) {
     const uint gatherRays = split ? settings.gatherRays : 0;
     batch.queues.assign(1 + gatherRays, {});
-    batch.status = {};
-    batch.isFollowed = endsLate;
-    recording.clear(status);
     compaction.start(recording, batch.count);
     recording.run(eye, batch.count,
                   {scene.address, paths, samples, compaction.list, splits, size, settings.size, batch.first,
                    batch.count, pass, settings.seed, settings.showPoints, split.has_value()});
-    recordPaths(recording, {batch.first, SAMPLES_EYE, pass}, 0, batch.queues[0]);
+    followPaths(recording, {batch.first, SAMPLES_EYE, pass}, 0, batch.queues[0]);
     for (uint ray = 0; ray < gatherRays; ray++) {
         const Paths gathering{batch.first, SAMPLES_GATHER, pass * gatherRays + ray};
         compaction.start(recording, batch.count);
@@ -169,15 +121,8 @@ void CameraPaths::record(Recording& recording, CameraBatch& batch) {
                        batch.count, gathering.index, settings.seed, 1 / float(gatherRays)});
         compaction.compact(recording);
         castShadowRays(recording);
-        recordPaths(recording, gathering, 1, batch.queues[1 + ray]);
+        followPaths(recording, gathering, 1, batch.queues[1 + ray]);
     }
-    if (finishKernel) recording.read(status, 0, batch.status);
-}
-
-bool CameraPaths::finish(const CameraBatch& batch) {
-    const bool ended = batch.isFollowed || batch.status.unfinished == 0;
-    endsLate |= !ended;
-    return ended;
 }
 
 } // namespace vkpm

@@ -43,9 +43,7 @@ struct RayCounts {
 struct CameraBatch {
     uint first; // pixel
     uint count;
-    std::vector<std::array<Queue, EYE_QUEUES>> queues{}; // of the path from the eye, then of each gather ray
-    CameraStatus status{};
-    bool isFollowed = false; // whether paths were followed to their ends, however late
+    std::vector<std::array<Queue, EYE_QUEUES>> queues{}; // of paths from the eye, then of each gather ray
 
     RayCounts rays() const;
 };
@@ -60,13 +58,9 @@ public:
     uint capacity() const { return size; }
     /// Records what paths of a pass have in common. `maps` stay as they are until the pass is done.
     void begin(Recording& recording, uint pass, const PhotonMaps& maps);
-    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done.
+    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done. Most
+    /// of it is submitted: the host follows paths to their ends.
     void record(Recording& recording, CameraBatch& batch);
-    /// Points to a number that is not 0 if paths of the last batch did not end, or nowhere.
-    Ptr<uint> unfinished() const { return {endsLate ? 0 : status.address}; }
-    /// Whether all paths of a batch, which was submitted, ended; else it is to be recorded again, and all batches from
-    /// then on follow such paths.
-    bool finish(const CameraBatch& batch);
 
     /// Where gather rays of the last range of pixels started, if paths are split.
     const Buffer<Split>& splitPoints() const { return splits; }
@@ -80,14 +74,10 @@ private:
         uint sequence;
         uint index; // of the sample
     };
-    uint commonBounces(uint sequence) const;
-    ShadeArgs shadeArgs(const Paths& of, uint bounce) const;
     void castShadowRays(Recording& recording);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
     void recordBounce(Recording& recording, const Paths& of, uint bounce);
-    void recordPaths(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
-    void followBounces(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
-    void followEnds(Recording& recording, const Paths& of, uint bounce);
+    void followPaths(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
 
     Gpu& gpu;
     const UploadedScene& scene;
@@ -96,7 +86,6 @@ private:
     uint size;
     uint pass = 0;
     PhotonMaps maps;
-    bool endsLate = false; // whether some paths do not end in one dispatch
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
@@ -104,13 +93,10 @@ private:
     Buffer<Query> queries;
     Buffer<Split> splits;
     Buffer<CameraPass> common;
-    Buffer<PhotonMap> commonMaps;
-    Buffer<CameraStatus> status;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;
-    std::optional<Kernel<ShadeArgs>> finishKernel; // absent if points are shown
-    std::optional<Kernel<ShadowArgs>> shadow;      // absent if no path asks
+    std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
     std::optional<Kernel<SplitArgs>> split; // absent if paths are not split
 };

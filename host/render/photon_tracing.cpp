@@ -1,5 +1,5 @@
-/// A batch of photons: emit, then trace and scatter, a bounce at a time; the last photons to their ends; then store
-/// those that arrived.
+/// A batch of photons: emit, then scatter, a bounce at a time and the last photons to their ends; then store those that
+/// arrived.
 #include "render/photon_tracing.h"
 #include "shared_paths.h"
 #include "shared_photons.h"
@@ -7,9 +7,8 @@
 
 namespace vkpm {
 
-// Bounces that all photons of a batch take together. The few that are left then go on by themselves. The number does
-// not depend on how many are left, as the bits of a picture may, where kernels round differently, depend on it.
-const uint commonBounces = 6;
+// Bounces that all photons of a batch take together, a dispatch each; then the few that are left take many in one.
+const uint commonBounces = 6, bouncesOfFew = 250;
 
 PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     emitted += other.emitted;
@@ -30,10 +29,9 @@ PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const F
     : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence),
       batchSize(std::min(size, count)), name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"),
       compaction(gpu, name, batchSize, PHOTON_QUEUES), paths(gpu, name + " paths", batchSize),
-      hits(gpu, name + " hits", batchSize), counts(gpu, name + " counts", batchSize + 1ull),
-      stored(gpu, name + " stored", 1), whole(gpu, name + " batch", 1), status(gpu, name + " status", 1),
-      emit(gpu, "emit", features), traceKernel(gpu, "trace", features), scatter(gpu, "scatter", features),
-      finishKernel(gpu, "finish_photons", features), scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
+      counts(gpu, name + " counts", batchSize + 1ull), stored(gpu, name + " stored", 1), whole(gpu, name + " batch", 1),
+      status(gpu, name + " status", 1), emit(gpu, "emit", features), scatter(gpu, "scatter", features),
+      scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
     const uint perPhoton = kind == MapKind::caustic ? 1 : 3; // the one is exact
     makeRoom(std::uint64_t(perPhoton) * batchSize, count <= fewPhotons ? std::uint64_t(perPhoton) * count : 0);
 }
@@ -53,43 +51,35 @@ PhotonLedger PhotonTracing::Batch::ledger() const {
             .absorbed = status.absorbed,
             .escaped = status.escaped,
             .lost = lost,
-            .rays = std::uint64_t(left.base) - size + status.rays,
+            .rays = status.rays,
             .nonfinite = status.nonfinite[NONFINITE_PHOTON]};
 }
 
-/// The bounces that the paths of a batch take together.
-void PhotonTracing::recordPaths(Recording& recording, Batch& batch) {
+/// The paths of a batch from the lights on, as far as they go together.
+void PhotonTracing::recordPaths(Recording& recording, const Batch& batch) {
     recording.clear(status);
     compaction.start(recording, batch.size);
     recording.run(emit, batch.size,
                   {scene.address, paths, compaction.list, compaction.flags, counts, status, guideNodes, starts,
                    batch.first, batch.size, batch.pass, seed, uint(kind)});
     compaction.compact(recording);
-    for (uint bounce = 0; bounce < commonBounces; bounce++) {
-        const Buffer<Queue>& queues = compaction.queues;
-        recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
-        recording.run(scatter, queues, QUEUE_CONTINUE,
-                      {scene.address, paths, hits, deposits, counts, queues, compaction.list, compaction.flags, status,
-                       static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, uint(kind)});
-        compaction.compact(recording);
-    }
-    recording.read(compaction.queues, QUEUE_CONTINUE, batch.left);
+    for (uint bounce = 0; bounce < commonBounces; bounce++) recordBounces(recording, batch, bounce, 1);
 }
 
-/// Takes the paths that are left to their ends, or FINISH_BOUNCES further.
-void PhotonTracing::recordEnds(Recording& recording, const Batch& batch, uint bounce) {
+/// Takes the paths under way some bounces further.
+void PhotonTracing::recordBounces(Recording& recording, const Batch& batch, uint bounce, uint bounces) {
     const Buffer<Queue>& queues = compaction.queues;
-    recording.run(finishKernel, queues, QUEUE_CONTINUE,
-                  {scene.address, paths, hits, deposits, counts, queues, compaction.list, compaction.flags, status,
-                   static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, uint(kind)});
+    recording.run(scatter, queues, QUEUE_CONTINUE,
+                  {scene.address, paths, deposits, counts, queues, compaction.list, compaction.flags, status,
+                   static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, bounces, uint(kind)});
+    compaction.compact(recording);
 }
 
-/// The same again and again, until none is left or all have had MAX_BOUNCES.
+/// Takes the last paths to their ends, until none is left or all have had MAX_BOUNCES.
 void PhotonTracing::followEnds(Recording& recording, Batch& batch) {
     Queue queue{.count = 1};
-    for (uint bounce = commonBounces; queue.count > 0 && bounce < MAX_BOUNCES; bounce += FINISH_BOUNCES) {
-        recordEnds(recording, batch, bounce);
-        compaction.compact(recording);
+    for (uint bounce = commonBounces; queue.count > 0 && bounce < MAX_BOUNCES; bounce += bouncesOfFew) {
+        recordBounces(recording, batch, bounce, std::min(bouncesOfFew, MAX_BOUNCES - bounce));
         recording.read(compaction.queues, QUEUE_CONTINUE, queue);
         recording.submit();
     }
@@ -126,7 +116,7 @@ void PhotonTracing::makeRoom(uint pass) {
     Batch batch{.pass = pass, .first = 0, .size = batchSize};
     Recording recording(gpu);
     recordPaths(recording, batch);
-    recordEnds(recording, batch, commonBounces);
+    recordBounces(recording, batch, commonBounces, bouncesOfFew);
     recording.read(status, 0, batch.status);
     recording.submit();
     const double expected = 1.02 * double(batch.status.deposits) / batchSize * count;
@@ -144,8 +134,12 @@ void PhotonTracing::record(Recording& recording, uint pass) {
     recording.clear(stored);
     for (Batch& batch : batches) {
         recordPaths(recording, batch);
-        if (endsLate) followEnds(recording, batch);
-        else recordEnds(recording, batch, commonBounces);
+        if (endsLate) {
+            followEnds(recording, batch);
+        } else {
+            recordBounces(recording, batch, commonBounces, bouncesOfFew);
+            recording.read(compaction.queues, QUEUE_CONTINUE, batch.left);
+        }
         recordPhotons(recording, batch);
         recording.flush();
     }
@@ -161,7 +155,7 @@ bool PhotonTracing::finish() {
     for (const Batch& batch : batches) {
         ledger += batch.ledger();
         most = std::max<std::uint64_t>(most, batch.status.deposits);
-        ended &= batch.status.unfinished == 0 || endsLate;
+        ended &= batch.left.count == 0 || endsLate;
     }
     endsLate |= !ended;
     const bool stays = makeRoom(most > deposits.size() ? most + most / 8 : 0,

@@ -58,15 +58,15 @@ private:
         uint pass;
         uint first; // photon
         uint size;
-        Queue left{}; // paths that are taken to their ends
+        Queue left{}; // paths that did not end
         std::uint64_t lost = 0;
         Status status{};
 
         PhotonLedger ledger() const;
     };
 
-    void recordPaths(Recording& recording, Batch& batch);
-    void recordEnds(Recording& recording, const Batch& batch, uint bounce);
+    void recordPaths(Recording& recording, const Batch& batch);
+    void recordBounces(Recording& recording, const Batch& batch, uint bounce, uint bounces);
     void followEnds(Recording& recording, Batch& batch);
     void recordPhotons(Recording& recording, Batch& batch);
     void makeRoom(uint pass);
@@ -89,16 +89,13 @@ private:
     std::string name;
     Compaction compaction;
     Buffer<Path> paths;
-    Buffer<Hit> hits;
     Buffer<PhotonDeposit> deposits;
     Buffer<uint> counts; // of a path's deposits, then where they go
     Buffer<uint> stored; // of the batches so far
     Buffer<Queue> whole; // all paths of the batch
     Buffer<Status> status;
     Kernel<EmitArgs> emit;
-    Kernel<TraceArgs> traceKernel;
     Kernel<ScatterArgs> scatter;
-    Kernel<ScatterArgs> finishKernel;
     Kernel<ScanArgs> scan;
     Kernel<StorePhotonsArgs> placeKernel;
 };

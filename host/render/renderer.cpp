@@ -122,7 +122,7 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
     const auto record = [&](CameraBatch& batch) {
         camera->record(recording, batch);
         if (light) light->recordSums(recording, camera->samples, batchSize, batch.first, batch.count);
-        film.add(recording, camera->samples, batchSize, batch.first, batch.count, camera->unfinished());
+        film.add(recording, camera->samples, batchSize, batch.first, batch.count);
     };
     try {
         for (; submitted < underWay.size(); submitted++) {
@@ -134,13 +134,6 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
         throw;
     }
     recording.wait();
-    for (CameraBatch& batch : underWay)
-        while (!camera->finish(batch)) {
-            CameraBatch again{.first = batch.first, .count = batch.count};
-            record(again);
-            recording.submit();
-            batch = again;
-        }
 }
 
 void Renderer::renderPass(uint pass) {
