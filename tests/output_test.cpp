@@ -261,8 +261,9 @@ TEST_F(OutputTest, StatisticsHaveTheContractsKeys) {
     const auto json = nlohmann::json::parse(contentOf(folder / "s.json"));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    ASSERT_THAT(keys, ElementsAre("device", "error", "features", "left_out", "memory", "needed", "nonfinite", "passes",
-                                  "photons", "radius", "rays", "seconds", "seed", "stages", "warnings"));
+    ASSERT_THAT(keys,
+                ElementsAre("device", "dispatches", "error", "features", "left_out", "memory", "needed", "nonfinite",
+                            "passes", "photons", "radius", "rays", "seconds", "seed", "stages", "waits", "warnings"));
     for (const char* key : {"total", "setup", "render"}) EXPECT_TRUE(json["seconds"][key].is_number()) << key;
     for (const char* map : {"global", "caustic"})
         for (const char* key : {"emitted", "stored", "absorbed", "escaped", "lost"})

@@ -21,9 +21,6 @@ PhotonLedger& PhotonLedger::operator+=(const PhotonLedger& other) {
     return *this;
 }
 
-// Up to so many photons room is made for as many as there may be; of more the first batch tells.
-const uint fewPhotons = 1u << 18;
-
 PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const Features& has, MapKind mapKind,
                              uint photonCount, uint sequence, uint size)
     : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence),
@@ -32,8 +29,8 @@ PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const F
       counts(gpu, name + " counts", batchSize + 1ull), stored(gpu, name + " stored", 1), whole(gpu, name + " batch", 1),
       status(gpu, name + " status", 1), emit(gpu, "emit", features), scatter(gpu, "scatter", features),
       scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
-    const uint perPhoton = kind == MapKind::caustic ? 1 : 3; // the one is exact
-    makeRoom(std::uint64_t(perPhoton) * batchSize, count <= fewPhotons ? std::uint64_t(perPhoton) * count : 0);
+    const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
+    makeRoom(std::uint64_t(perPhoton) * batchSize, 0);
 }
 
 void PhotonTracing::guide(Ptr<GuideNode> nodes, Ptr<PrimarySample> toFill) {
@@ -120,7 +117,8 @@ void PhotonTracing::makeRoom(uint pass) {
     recording.read(status, 0, batch.status);
     recording.submit();
     const double expected = 1.02 * double(batch.status.deposits) / batchSize * count;
-    makeRoom(batch.status.deposits + batch.status.deposits / 8, static_cast<std::uint64_t>(expected) + 1000);
+    const std::uint64_t found = batch.status.deposits;
+    makeRoom(found > deposits.size() ? found + found / 8 : 0, static_cast<std::uint64_t>(expected) + 1000);
 }
 
 void PhotonTracing::record(Recording& recording, uint pass) {
