@@ -4,10 +4,10 @@
 // Runs of passes are nodes of a tree (host/render/pass_runs.h): four batches of 4^k passes make one of 4^(k + 1). How
 // batches differ says how far their mean may be from the truth, better than single passes do, whose points were made to
 // complement each other. A run that is made of batches of 4^k passes keeps the squared deviations of their beauty from
-// its mean, with batches as weights (COARSE), and those of batches of 4^(k - 1) passes (FINE).
+// its mean, with batches as weights (large batches), and those of batches of 4^(k - 1) passes (small batches).
 //
 // Deviations are small differences of large sums. So a run also keeps what roundings took from the sums of its layers
-// (REST), and differences are made before sums.
+// (compensation), and differences are made before sums.
 #ifndef ACCUMULATE_GLSL
 #define ACCUMULATE_GLSL
 #include "common.glsl"

@@ -23,7 +23,7 @@ TestScene sceneWith(std::vector<Light> lights, std::vector<float> cdf = {1}) {
 
 std::vector<LightValues> sampleEmissionPoint(const Light& light, const std::vector<vec2>& us) {
     const TestScene scene = sceneWith({light});
-    return map<LightValues>("sample_light", us, {}, scene.context());
+    return map<LightValues>("emission_point", us, {}, scene.context());
 }
 
 // How often each light is chosen by the numbers (i + 0.5) / count: exactly its probability, to one at each end of its
@@ -118,10 +118,10 @@ Light sphereLight(vec3 center, float radius) {
     return {.a = center, .u = {radius, 0, 0}, .v = {}, .radiance = white, .kind = LIGHT_SPHERE, .area = area};
 }
 
-std::vector<SeenValues> seenPoints(const Light& light, vec3 origin, uint count) {
+std::vector<LightSampleValues> lightSamples(const Light& light, vec3 origin, uint count) {
     std::vector<VectorPair> xs;
     for (const vec2 u : unitSquare(count, 7)) xs.push_back({origin, vec3{u, 0}});
-    return map<SeenValues>("seen_point", xs, {}, sceneWith({light}).context());
+    return map<LightSampleValues>("light_sample", xs, {}, sceneWith({light}).context());
 }
 
 // From outside: on the sphere, on the near side, uniform over the solid angle of the cone, near and far.
@@ -135,13 +135,13 @@ TEST(Light, SpheresAreSeenUniformlyByAngle) {
         const double height = sine2 / (1 + std::sqrt(1 - sine2));
         const dvec3 side = glm::normalize(glm::cross(axis, dvec3{0, 0, 1})), up = glm::cross(side, axis);
         Histogram histogram(16, 16);
-        for (const SeenValues& y : seenPoints(sphereLight(center, 0.5f), origin, 1 << 18)) {
+        for (const LightSampleValues& y : lightSamples(sphereLight(center, 0.5f), origin, 1 << 18)) {
             const dvec3 n = (dvec3(y.position) - dvec3(center)) / radius,
                         w = glm::normalize(dvec3(y.position) - dvec3(origin));
             ASSERT_NEAR(glm::length(n), 1, 1e-5);
             ASSERT_LT(glm::length(n - dvec3(y.normal)), 1e-5);
             ASSERT_LT(glm::dot(w, n), 2e-3);
-            ASSERT_NEAR(y.solidAngle, 2 * pi * height, 1e-5 * height);
+            ASSERT_NEAR(y.inversePdf, 2 * pi * height, 1e-5 * height);
             const double x = glm::length(glm::cross(w, axis)), cosine = glm::dot(w, axis);
             histogram.add(x * x / (1 + cosine) / height, turn(glm::dot(w, side), glm::dot(w, up)));
         }
@@ -206,8 +206,8 @@ TEST(Light, FlatLightsAreSeenUniformlyByAngle) {
             const Light light = flat.light();
             const double whole = flat.solidAngle();
             std::vector<double> found(side * side);
-            for (const SeenValues& y : seenPoints(light, vec3{0}, count)) {
-                ASSERT_NEAR(y.solidAngle, whole, 1e-6 * whole + 4 * flat.rounding()) << kind << " z " << flat.z;
+            for (const LightSampleValues& y : lightSamples(light, vec3{0}, count)) {
+                ASSERT_NEAR(y.inversePdf, whole, 1e-6 * whole + 4 * flat.rounding()) << kind << " z " << flat.z;
                 const double s = (double{y.position.x} - flat.x) / flat.width,
                              t = (double{y.position.y} - flat.y) / flat.height;
                 ASSERT_TRUE(s >= -1e-6 && t >= -1e-6 && (kind == LIGHT_TRIANGLE ? s + t : std::max(s, t)) <= 1 + 1e-6)
@@ -232,8 +232,8 @@ TEST(Light, FlatLightsInTheirPlane) {
                                   vec3{0.5f, 0, 0}, vec3{2, 0.25f, 0}, vec3{0, 0, 1e-20f}}) {
             Light light = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
             light.kind = kind;
-            for (const SeenValues& y : seenPoints(light, origin, 1 << 12)) {
-                ASSERT_TRUE(std::isfinite(y.solidAngle) && y.solidAngle >= 0 && y.solidAngle < 6.2832)
+            for (const LightSampleValues& y : lightSamples(light, origin, 1 << 12)) {
+                ASSERT_TRUE(std::isfinite(y.inversePdf) && y.inversePdf >= 0 && y.inversePdf < 6.2832)
                     << kind << " " << origin.x;
                 ASSERT_TRUE(glm::all(glm::greaterThanEqual(y.position, vec3(0))) &&
                             glm::all(glm::lessThanEqual(y.position, vec3(1))));
@@ -244,13 +244,13 @@ TEST(Light, FlatLightsInTheirPlane) {
 // The irradiance below a light, in closed form: of a sphere pi sin^2 cos (its rim's and its middle's angles), of a unit
 // square seen from a distance of one under its centre 0.7522746885; from within a sphere everything is seen, a solid
 // angle of 4 pi.
-TEST(Light, SeenPointsGiveTheIrradiance) {
+TEST(Light, SamplesGiveTheIrradiance) {
     const auto irradiance = [](const Light& light, vec3 origin) {
         double sum = 0;
-        const auto seen = seenPoints(light, origin, 1 << 18);
-        for (const SeenValues& y : seen) {
+        const auto seen = lightSamples(light, origin, 1 << 18);
+        for (const LightSampleValues& y : seen) {
             const dvec3 w = glm::normalize(dvec3(y.position) - dvec3(origin));
-            sum += w.z > 0 ? w.z * double{y.solidAngle} : 0;
+            sum += w.z > 0 ? w.z * double{y.inversePdf} : 0;
         }
         return sum / double(seen.size());
     };
@@ -260,8 +260,8 @@ TEST(Light, SeenPointsGiveTheIrradiance) {
     EXPECT_NEAR(irradiance(sphereLight({0, 0, 1000}, 1), vec3{0}), pi * 1e-6, 1e-10);
     EXPECT_NEAR(irradiance(rectangle({-0.5f, 0.5f, 1}, {1, 0, 0}, {0, -1, 0}), vec3{0}), 0.7522746885, 2e-3);
     double whole = 0;
-    const auto within = seenPoints(sphereLight({0, 0, 0}, 1), {0.1f, 0.2f, 0.3f}, 1 << 18);
-    for (const SeenValues& y : within) whole += double{y.solidAngle};
+    const auto within = lightSamples(sphereLight({0, 0, 0}, 1), {0.1f, 0.2f, 0.3f}, 1 << 18);
+    for (const LightSampleValues& y : within) whole += double{y.inversePdf};
     EXPECT_NEAR(whole / double(within.size()), 4 * pi, 0.02);
 }
 
@@ -295,7 +295,7 @@ double formFactor(double height, uint side) {
         std::vector<vec2> us;
         for (uint row = begin; row < std::min(begin + 256, side); row++)
             for (uint i = 0; i < side; i++) us.push_back((vec2{i, row} + 0.5f) / float(side));
-        for (const LightValues& y : map<LightValues>("sample_light", us, {}, scene.context())) {
+        for (const LightValues& y : map<LightValues>("emission_point", us, {}, scene.context())) {
             const dvec3 d = dvec3(y.position) - dvec3{0, 0, -height};
             const double distance2 = glm::dot(d, d);
             sum += d.z * -glm::dot(d, dvec3(y.normal)) / (distance2 * distance2 * pi);

@@ -114,11 +114,11 @@ struct LightValues {
     vec3 normal;
 };
 
-struct SeenValues {
+struct LightSampleValues {
     vec3 position;
     vec3 magnitude;
     vec3 normal;
-    float solidAngle;
+    float inversePdf;
 };
 
 struct EmittedCase {

@@ -1,7 +1,6 @@
 /// Creating the instance, with or without validation.
 #include "gpu/instance.h"
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -34,9 +33,12 @@ static vk::raii::Instance createInstance(const vk::raii::Context& context, std::
         return std::string_view(extension.extensionName) == "VK_KHR_portability_enumeration";
     });
     if (portability) extensions.push_back("VK_KHR_portability_enumeration");
-    const std::array enabled{vk::ValidationFeatureEnableEXT::eGpuAssisted,
-                             vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot,
-                             vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    const char* of = std::getenv("VKPM_VALIDATION_OF"); // "calls": not of what kernels read and write
+    std::vector enabled{vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    if (!of || std::strcmp(of, "calls") != 0) {
+        enabled.push_back(vk::ValidationFeatureEnableEXT::eGpuAssisted);
+        enabled.push_back(vk::ValidationFeatureEnableEXT::eGpuAssistedReserveBindingSlot);
+    }
     vk::ValidationFeaturesEXT features;
     features.setEnabledValidationFeatures(enabled);
     vk::InstanceCreateInfo create{.pNext = validate ? &features : nullptr, .pApplicationInfo = &application};

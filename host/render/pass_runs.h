@@ -20,7 +20,7 @@ std::size_t maxRuns(uint passes);
 /// How to join b, or its first passes, to a, which may be empty.
 JoinWeights joinWeights(PassRange a, PassRange b);
 
-/// Passes of the batches that a run's COARSE deviations are about; those of its FINE ones are a quarter of that.
+/// Passes of the batches that a run's deviations of large batches are about; its small batches have a quarter.
 uint coarseBatch(PassRange run);
 
 /// Batches of passes by which the spread of a mean over runs of passes is judged: runs are cut into whole ones, with a

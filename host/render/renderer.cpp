@@ -54,7 +54,7 @@ void Renderer::constructCamera() {
 void Renderer::setView(const View& view, uvec2 size) {
     const bool resized = size != settings.size;
     settings.size = size;
-    scene.look(view, size);
+    scene.setView(view, size);
     if (resized) constructCamera();
     film = Film(gpu, size, sceneHas);
     cameraRays = {};

@@ -42,10 +42,10 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .targetCount = static_cast<uint>(scene.targets.size()),
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);
-    look(scene.view, settings.size);
+    setView(scene.view, settings.size);
 }
 
-void UploadedScene::look(const View& view, uvec2 size) {
+void UploadedScene::setView(const View& view, uvec2 size) {
     device.camera = pinholeCamera(view, size);
     address.upload(std::span(&device, 1));
 }

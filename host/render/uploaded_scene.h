@@ -15,7 +15,7 @@ public:
     UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings);
 
     /// Takes the camera of another view.
-    void look(const View& view, uvec2 size);
+    void setView(const View& view, uvec2 size);
     Camera camera() const { return device.camera; }
 
     /// Light samples choose lights by these upper ends, the last of which is 1; at first they are those of photons.

@@ -1,4 +1,4 @@
-// Points of the first light of a scene.
+// Points of the first light of a scene where photons start.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
