@@ -150,9 +150,8 @@ static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::u
         commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &after});
         commands.end();
         gpu.handles->submit(commands, *fence);
-        gpu.handles->wait(fence);
+        gpu.waits += gpu.handles->wait(fence);
         gpu.handles->device.resetFences(*fence);
-        gpu.waits++;
         gpu.times["staging"].dispatches++;
         if (!toDevice) use(staging.mapped, done, size);
     }

@@ -201,12 +201,15 @@ void Gpu::Handles::submit(const vk::raii::CommandBuffer& recorded, vk::Fence fen
     });
 }
 
-void Gpu::Handles::wait(const vk::raii::Fence& fence) {
-    attempt(running, runningHint, [&] {
+bool Gpu::Handles::wait(const vk::raii::Fence& fence) {
+    const bool waits = attempt(running, runningHint, [&] {
+        if (fence.getStatus() == vk::Result::eSuccess) return false;
         const vk::Result result = device.waitForFences(*fence, true, UINT64_MAX);
         if (result != vk::Result::eSuccess) throw GpuError("vkWaitForFences returned " + vk::to_string(result));
+        return true;
     });
     warmingUp.clear(); // they were before
+    return waits;
 }
 
 Gpu::Gpu(std::string_view wanted) : handles(open(wanted)) {}

@@ -40,8 +40,8 @@ struct Gpu::Handles {
     vk::raii::CommandBuffer begin() const;
     /// Submits commands whose recording has ended; the fence, if there is one, tells when they are done.
     void submit(const vk::raii::CommandBuffer& commands, vk::Fence fence) const;
-    /// Waits for the fence of what was submitted.
-    void wait(const vk::raii::Fence& fence);
+    /// Waits for the fence of what was submitted; false if that was done already.
+    bool wait(const vk::raii::Fence& fence);
 };
 
 } // namespace vkpm

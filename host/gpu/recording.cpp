@@ -78,17 +78,10 @@ struct Recording::Handles {
                 double((ticks[i + 1] - ticks[i]) & gpu.handles->tickMask) * gpu.handles->nanosecondsPerTick * 1e-9;
     }
 
-    void waitFor(const RecordingPart& part) {
-        if (part.fence.getStatus() == vk::Result::eSuccess) return;
-        gpu.handles->wait(part.fence);
-        gpu.waits++;
-    }
-
     void finishOldest() {
         Part part = std::move(submitted.front());
         submitted.pop_front();
-        waitFor(*part);
-        gpu.handles->device.resetFences(*part->fence);
+        gpu.waits += gpu.handles->wait(part->fence);
         addTimes(*part);
         for (const RecordingPart::Letter& letter : part->letters)
             std::memcpy(letter.value, part->mailbox.mapped + letter.offset, letter.bytes);
@@ -103,7 +96,7 @@ Recording::~Recording() {
         for (const auto& part : handles->submitted) part->letters.clear(); // their readers may be gone
         while (!handles->submitted.empty()) handles->finishOldest();
         if (handles->open) handles->gpu.handles->idleParts.push_back(std::move(handles->open));
-    } catch (const GpuError&) { // a device that is lost runs nothing
+    } catch (const std::exception&) { // a device that is lost runs nothing
     }
 }
 
@@ -124,6 +117,7 @@ void Recording::begin() {
             timed
                 ? gpu.handles->device.createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = maxStamps})
                 : vk::raii::QueryPool{nullptr};
+    gpu.handles->device.resetFences(*part->fence);
     part->commands.reset();
     part->commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (timed) {
@@ -191,7 +185,7 @@ void Recording::flush() {
 
 void Recording::wait() {
     if (handles->submitted.empty()) return;
-    handles->waitFor(*handles->submitted.back()); // and so for all
+    handles->gpu.waits += handles->gpu.handles->wait(handles->submitted.back()->fence); // and so for all
     while (!handles->submitted.empty()) handles->finishOldest();
 }
 

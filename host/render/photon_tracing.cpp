@@ -109,7 +109,7 @@ bool PhotonTracing::makeRoom(std::uint64_t depositCount, std::uint64_t photonCou
 }
 
 /// Makes room for about as many per photon as the first batch has.
-void PhotonTracing::makeRoom(uint pass) {
+void PhotonTracing::measureRoom(uint pass) {
     Batch batch{.pass = pass, .first = 0, .size = batchSize};
     Recording recording(gpu);
     recordPaths(recording, batch);
@@ -125,7 +125,7 @@ void PhotonTracing::record(Recording& recording, uint pass) {
     recorded.reset();
     if (held == pass) return;
     held.reset(); // until all are there
-    if (photons.size() == 0) makeRoom(pass);
+    if (photons.size() == 0) measureRoom(pass);
     batches.clear();
     for (uint first = 0; first < count; first += batchSize)
         batches.push_back({.pass = pass, .first = first, .size = std::min(batchSize, count - first)});

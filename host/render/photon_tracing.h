@@ -69,7 +69,7 @@ private:
     void recordBounces(Recording& recording, const Batch& batch, uint bounce, uint bounces);
     void followEnds(Recording& recording, Batch& batch);
     void recordPhotons(Recording& recording, Batch& batch);
-    void makeRoom(uint pass);
+    void measureRoom(uint pass);
     bool makeRoom(std::uint64_t depositCount, std::uint64_t photonCount);
 
     Gpu& gpu;
