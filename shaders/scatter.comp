@@ -1,10 +1,146 @@
-// Takes photons a number of bounces further, or to their ends; see scatter.glsl. When few are left, many bounces in one
-// dispatch cost less than a dispatch each.
+// Photons at the surfaces they hit: those at diffuse ones are kept for the map, and Russian roulette absorbs them or
+// sends them on, a number of bounces or to their ends. When few are left, many bounces in one dispatch cost less than a
+// dispatch each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "common.glsl"
 #include "compaction.glsl"
-#include "scatter.glsl"
+#include "directions.glsl"
+#include "feature_checks.glsl"
+#include "material.glsl"
+#include "offset.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "shared_paths.h"
+#include "shared_photons.h"
+#include "shared_scene.h"
+#include "surface.glsl"
+#include "terminator.glsl"
 #include "trace_path.glsl"
+
+ARGS(ScatterArgs)
+
+const uint OUTCOME_ESCAPED = 0u;
+const uint OUTCOME_ABSORBED = 1u;
+const uint OUTCOME_GOES_ON = 2u;
+
+// Goes on with a probability, and makes up for it (Arvo & Kirk 1990).
+bool russianRoulette(inout Path path, vec3 color, float probability, float u) {
+    if (u >= probability) return false;
+    path.throughput *= color / probability;
+    return true;
+}
+
+uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface surface, Sampler s) {
+    vec2 u = sample2(s, 4u * bounce + 5u);
+    uint run = specularRun(path.flags);
+    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive,
+                afterSpecular(path.flags));
+    return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON
+                                                                                         : OUTCOME_ABSORBED;
+}
+
+// The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for
+// a shading normal that is not the geometric one (Veach 1997, eq. 5.19).
+Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
+    if (hasSmoothNormals) {
+        vec3 shading = dot(surface.normal, normal) < 0.0 ? -surface.shading : surface.shading;
+        if (bulge == 0.0) path.throughput *= max(0.0, dot(path.direction, shading) / dot(path.direction, normal));
+        else
+            path.throughput *=
+                cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
+    }
+    return Photon(surface.position, path.throughput, packUnit(normal));
+}
+
+uint scatterAtDiffuse(uint bounce, inout Path path, Material material, Surface surface, vec3 normal, float survival,
+                      Sampler s) {
+    if (!russianRoulette(path, material.color, survival, sample2(s, 4u * bounce + 5u).y)) return OUTCOME_ABSORBED;
+    vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * bounce + 6u)), normal);
+    path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0,
+                surface.primitive, path.flags & ~PATH_SPECULARS);
+    return OUTCOME_GOES_ON;
+}
+
+// A photon that comes to lie on a smooth mesh is one that lies where it leaves the mesh too, if its path would go on:
+// there light arrives that the triangles before keep away. Those that the first place absorbs stand for all.
+const float MOST_SURVIVAL = 0.8; // some always go through
+
+// At a diffuse surface; a photon may arrive there, as `photon`, and the path goes on with the outcome returned.
+uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface surface, Sampler s, out Photon photon) {
+    bool through = hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u;
+    bool behind = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = behind != through ? -surface.normal : surface.normal;
+    float bulge = behind != through ? -surface.bulge : surface.bulge;
+    photon = Photon(vec3(0.0), vec3(0.0), 0u);
+    if (through && bulge <= 0.0) return OUTCOME_ABSORBED;
+    path.flags &= ~PATH_THROUGH;
+
+    Path passing = path;
+    photon = photonAt(path, surface, normal, bulge);
+    if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
+    else if (through) return OUTCOME_ABSORBED;
+    float survival = maxComponent(material.color);
+    bool passes = hasSmoothDiffuse && bulge != 0.0 && !through;
+    if (passes) survival = min(survival, MOST_SURVIVAL);
+    if (args.caustic != 0u) survival = 0.0;
+    uint outcome =
+        args.caustic != 0u ? OUTCOME_ABSORBED : scatterAtDiffuse(bounce, path, material, surface, normal, survival, s);
+    if (!passes || outcome == OUTCOME_GOES_ON) return outcome;
+    path = Path(leave(surface, passing.direction), passing.direction, passing.throughput / (1.0 - survival), 0.0,
+                surface.primitive, path.flags | PATH_THROUGH);
+    return OUTCOME_GOES_ON;
+}
+
+// Moves the photon on; returns its outcome, and whether it belongs into the map, as `deposit`.
+uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool arrives, out PhotonDeposit deposit) {
+    DeviceScene scene = args.scene.at[0];
+    arrives = false;
+    bool through = hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u;
+    if (hit.primitive == NONE) return through ? OUTCOME_ABSORBED : OUTCOME_ESCAPED;
+
+    Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
+    Surface surface = surfaceAt(scene, path, hit);
+    Material material = MaterialPtr(scene.materials).at[surface.material];
+    requireSurface(scene, hit.primitive, material);
+    uint outcome;
+    if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
+    if (!isDiffuse(material)) {
+        outcome = scatterAtSpecular(bounce, path, material, surface, s);
+    } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
+        return OUTCOME_ESCAPED; // aimed at a specular shape, but not one that it hit
+    } else {
+        uint index = path.flags >> PATH_DIFFUSE_SHIFT;
+        Photon photon;
+        outcome = arriveAtDiffuse(bounce, path, material, surface, s, photon);
+        arrives = maxComponent(photon.color) > 0.0;
+        deposit = PhotonDeposit(photon, slot, index);
+    }
+    return outcome;
+}
+
+// Keeps a deposit, in any order; (slot, index) says where it belongs. One atomic each: to share one takes several
+// operations on a subgroup whose lanes nothing keeps together in between.
+void keep(PhotonDeposit deposit) {
+    uint place = atomicAdd(args.status.at[0].deposits, 1u);
+    args.counts.at[deposit.slot] = deposit.index + 1u;
+    if (place < args.capacity) args.deposits.at[place] = deposit;
+}
+
+// The ledger; sums of integers depend neither on their order nor on which lanes are together.
+void count(uint outcome, uint rays) {
+    uint escaped = subgroupAdd(uint(outcome == OUTCOME_ESCAPED));
+    uint absorbed = subgroupAdd(uint(outcome == OUTCOME_ABSORBED));
+    uint traced = subgroupAdd(rays);
+    if (subgroupElect()) {
+        if (escaped > 0u) atomicAdd(args.status.at[0].escaped, escaped);
+        if (absorbed > 0u) atomicAdd(args.status.at[0].absorbed, absorbed);
+        atomicAdd(args.status.at[0].rays, traced);
+    }
+}
 
 void main() {
     Queue queue = args.queue.at[0];

@@ -1,8 +1,199 @@
-// A bounce of eye paths: see shade.glsl.
+// Eye paths at the surfaces they hit: light that is seen, and what to ask of shadow rays and photon maps.
+//
+// The photon integrator asks at the first diffuse vertex for the caustic map, splits the path there (see split.comp),
+// and asks for the global map where gather rays end. The path integrator goes on and on, and counts the same paths in
+// the same layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
 #include "compaction.glsl"
-#include "shade.glsl"
+#include "direct.glsl"
+#include "directions.glsl"
+#include "feature_checks.glsl"
+#include "film_layout.glsl"
+#include "light.glsl"
+#include "material.glsl"
+#include "offset.glsl"
+#include "random.glsl"
+#include "sampling.glsl"
+#include "shared_camera.h"
+#include "shared_film.h"
+#include "shared_layers.h"
+#include "shared_paths.h"
+#include "shared_scene.h"
+#include "surface.glsl"
+#include "terminator.glsl"
+
+ARGS(ShadeArgs)
+
+uint activeIntegrator() { return integrator == ANY ? args.integrator : integrator; }
+
+bool showsCaustics() { return hasCausticMap && args.caustics != 0u; }
+
+// The point of a path's sequence, and the bounce that it is at.
+struct BounceSampler {
+    Sampler path;
+    uint bounce;
+};
+
+// Two dimensions of a bounce: it has four pairs, after that of the place in the pixel.
+vec2 bounceSample(BounceSampler s, uint pair) { return sample2(s.path, 4u * s.bounce + pair + 1u); }
+
+// The layer of a path, by the name it has if no specular surface stands before the first diffuse one.
+uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer; }
+
+// What a path does at the surface that it hits.
+struct Vertex {
+    uint queues;         // that it goes to, one bit each
+    uint emissionColumn; // to which `emission` is added, or NONE
+    vec3 emission;
+    Path path;           // of QUEUE_CONTINUE
+    ShadowRay shadowRay; // of QUEUE_SHADOW
+    Query query;         // of QUEUE_CAUSTIC or QUEUE_GLOBAL
+    Split split;         // its flags may be NONE
+};
+
+// Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
+// have the direct part, and the photon integrator has the rest in its maps.
+void addEmission(inout Vertex vertex, Path path, Light light, vec3 normal) {
+    uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
+    if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
+    uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    if (!hasLayer(layer)) return;
+    vertex.emissionColumn = layerColumn(layer);
+    vertex.emission = path.throughput * emittedRadiance(light, normal, -path.direction);
+}
+
+// Asks for one light sample.
+void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
+                      float bulge, vec3 weight, BounceSampler s) {
+    uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
+    if (!hasLayer(layer)) return;
+    vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
+    vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
+                                    layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
+}
+
+// Asks a map, unless there is no such map or nobody asked for the layer.
+void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+    layer = layerOf(path, layer);
+    if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
+    float footprint = path.distanceSinceDiffuse * args.pixelAngle;
+    vertex.query = Query(surface.position, normal, weight, layerColumn(layer), footprint);
+    vertex.queues |= 1u << queue;
+}
+
+// Lets light samples and gather rays start here, if anyone asks for what they find.
+void storeSplit(inout Vertex vertex, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 weight) {
+    if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
+    uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
+    vertex.split = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight,
+                         surface.primitive, flags, bulge);
+}
+
+// Whether light that is found beyond a diffuse vertex has a layer to go to.
+bool continuesAfterDiffuse(Path path) {
+    if (activeIntegrator() == INTEGRATOR_DIRECT) return false;
+    if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer;
+    return hasIndirectLayer ||
+           (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
+}
+
+// One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
+void bounceDiffuse(inout Vertex vertex, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 albedo,
+                   BounceSampler s) {
+    uint diffuse = (path.flags >> PATH_DIFFUSE_SHIFT) + 1u;
+    float survival = diffuse > 2u ? maxComponent(albedo) : 1.0;
+    if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return;
+    vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
+    if (!departs(direction, normal, bulge)) return;
+    uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
+    if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
+    vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
+                       path.throughput * albedo / survival, 0.0, surface.primitive, flags);
+    vertex.queues |= 1u << QUEUE_CONTINUE;
+}
+
+void scatterAtSpecular(inout Vertex vertex, Path path, Material material, Surface surface, BounceSampler s) {
+    vec2 u = bounceSample(s, 0u);
+    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    uint run = specularRun(path.flags);
+    float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
+    if (u.y >= survival) return;
+    uint flags = afterSpecular(path.flags) | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
+    vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
+    if (!(maxComponent(throughput) > 0.0)) return;
+    vertex.path = Path(leave(surface, event.direction), event.direction, throughput, path.distanceSinceDiffuse,
+                       surface.primitive, flags);
+    vertex.queues |= 1u << QUEUE_CONTINUE;
+}
+
+void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 albedo, BounceSampler s) {
+    bool behind = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = behind ? -surface.normal : surface.normal;
+    vec3 shading = behind ? -surface.shading : surface.shading;
+    float bulge = behind ? -surface.bulge : surface.bulge;
+    bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
+    bool maps = activeIntegrator() == INTEGRATOR_PHOTON_MAP, gathers = activeIntegrator() == INTEGRATOR_PHOTON;
+    bool isFar = gathers && !first && path.distanceSinceDiffuse >= args.nearDistance;
+    bool asksCaustics = !isFar && (maps || gathers) && showsCaustics();
+    vec3 weight = maps ? path.throughput : path.throughput * albedo;
+
+    if (asksCaustics)
+        queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, weight / PI,
+                       maps || first ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    else if (maps || isFar) queryPhotonMap(vertex, QUEUE_GLOBAL, path, surface, normal, weight / PI, LAYER_INDIRECT);
+    if (maps || isFar) return;
+
+    if (gathers && first) {
+        storeSplit(vertex, path, surface, normal, shading, bulge, weight);
+        return;
+    }
+    requestShadowRay(vertex, scene, path, surface, normal, shading, bulge, weight, s);
+    if (continuesAfterDiffuse(path)) bounceDiffuse(vertex, path, surface, normal, shading, bulge, albedo, s);
+}
+
+// Whether light that is found beyond a specular vertex has a layer to go to.
+bool continuesAfterSpecular(Path path) { return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer; }
+
+// A path of a slot at the hit of its ray. The first surface that the eye sees goes to the samples.
+Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
+    Vertex vertex;
+    vertex.queues = 0u;
+    vertex.emissionColumn = NONE;
+    vertex.split.flags = NONE;
+    if (hit.primitive == NONE) return vertex;
+    DeviceScene scene = args.scene.at[0];
+    Surface surface = surfaceAt(scene, path, hit);
+    Material material = MaterialPtr(scene.materials).at[surface.material];
+    requireSurface(scene, hit.primitive, material);
+    if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
+    path.distanceSinceDiffuse += hit.t;
+    if (bounce == 0u) {
+        if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
+        if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
+        if (hasDepth) {
+            args.samples.at[COLUMN_DEPTH * args.stride + slot] =
+                scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
+            args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
+        }
+    }
+    if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
+        if (surface.bulge == 0.0 || !isDiffuse(material)) return vertex;
+        vertex.path = Path(leave(surface, path.direction), path.direction, path.throughput, path.distanceSinceDiffuse,
+                           surface.primitive, path.flags & ~PATH_THROUGH);
+        vertex.queues = 1u << QUEUE_CONTINUE;
+        return vertex;
+    }
+    if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
+        addEmission(vertex, path, LightPtr(scene.lights).at[surface.light], surface.normal);
+
+    BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
+    if (isDiffuse(material)) shadeDiffuse(vertex, scene, path, surface, material.color, s);
+    else if (continuesAfterSpecular(path)) scatterAtSpecular(vertex, path, material, surface, s);
+    return vertex;
+}
 
 void main() {
     Queue queue = args.queue.at[0];

@@ -40,16 +40,6 @@ struct Split {
 };
 BUFFER(Split)
 
-/// What the paths of a pass have in common.
-struct CameraPass {
-    uint seed;
-    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
-    float nearDistance; // a gather ray shorter than this goes on
-    float pixelAngle;   // width of a pixel over its distance
-    uint integrator;    // INTEGRATOR_...
-};
-BUFFER(CameraPass)
-
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
@@ -68,7 +58,6 @@ struct EyeArgs {
 
 struct ShadeArgs {
     PTR(DeviceScene) scene;
-    PTR(CameraPass) pass;
     PTR(Path) paths;
     PTR(Hit) hits;
     PTR(float) samples; // [column][stride]
@@ -82,7 +71,12 @@ struct ShadeArgs {
     uint firstPixel;
     uint sequence; // SAMPLES_...
     uint index;    // of the sample in its sequence
+    uint seed;
     uint bounce;
+    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
+    float nearDistance; // a gather ray shorter than this goes on
+    float pixelAngle;   // width of a pixel over its distance
+    uint integrator;    // INTEGRATOR_...
 };
 
 struct SplitArgs {

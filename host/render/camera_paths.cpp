@@ -30,8 +30,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
                          uint batchSize)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batchSize)),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      common(gpu, "camera pass", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features),
-      shade(gpu, "shade", features) {
+      eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
     if (asksLights(features, settings)) {
         shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);
@@ -73,8 +72,26 @@ void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounc
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address, common, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list,
-                   compaction.flags, size, of.first, of.sequence, of.index, bounce});
+                  {scene.address,
+                   paths,
+                   hits,
+                   samples,
+                   shadowRays,
+                   queries,
+                   splits,
+                   queues,
+                   compaction.list,
+                   compaction.flags,
+                   size,
+                   of.first,
+                   of.sequence,
+                   of.index,
+                   settings.seed,
+                   bounce,
+                   features.hasCausticMap,
+                   maps.nearDistance,
+                   pixelAngle,
+                   settings.integrator});
     compaction.compact(recording);
 
     const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
@@ -94,15 +111,10 @@ void CameraPaths::followPaths(Recording& recording, const Paths& of, uint bounce
     } while (queues[QUEUE_CONTINUE].count > 0 && bounce < MAX_BOUNCES);
 }
 
-void CameraPaths::begin(Recording& recording, uint index, const PhotonMaps& asked) {
+void CameraPaths::begin(uint index, const PhotonMaps& asked) {
     pass = index;
     maps = asked;
-    const CameraPass shared{.seed = settings.seed,
-                            .caustics = features.hasCausticMap,
-                            .nearDistance = maps.nearDistance,
-                            .pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y),
-                            .integrator = settings.integrator};
-    recording.write(common, std::span(&shared, 1));
+    pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
 }
 
 void CameraPaths::record(Recording& recording, CameraBatch& batch) {

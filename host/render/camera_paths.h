@@ -56,8 +56,8 @@ public:
 
     /// Pixels that one batch may have.
     uint capacity() const { return size; }
-    /// Records what paths of a pass have in common. `maps` stay as they are until the pass is done.
-    void begin(Recording& recording, uint pass, const PhotonMaps& maps);
+    /// Begins a pass, until whose end `maps` stay as they are.
+    void begin(uint pass, const PhotonMaps& maps);
     /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done. Most
     /// of it is submitted: the host follows paths to their ends.
     void record(Recording& recording, CameraBatch& batch);
@@ -85,6 +85,7 @@ private:
     Features features;
     uint size;
     uint pass = 0;
+    float pixelAngle = 0;
     PhotonMaps maps;
     Compaction compaction;
     Buffer<Path> paths;
@@ -92,7 +93,6 @@ private:
     Buffer<ShadowRay> shadowRays;
     Buffer<Query> queries;
     Buffer<Split> splits;
-    Buffer<CameraPass> common;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;

@@ -48,7 +48,7 @@ CameraPilot::CameraPilot(Gpu& gpu, const UploadedScene& scene, const Features& f
     PhotonMaps marked = maps;
     marked.marks = &marks;
     CameraBatch all{.first = 0, .count = paths.capacity()};
-    paths.begin(recording, NONE, marked);
+    paths.begin(NONE, marked);
     paths.record(recording, all);
     recording.submit();
 }

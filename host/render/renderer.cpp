@@ -117,7 +117,7 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
     if (underWay.empty())
         for (uint first = 0; first < pixels; first += batchSize)
             underWay.push_back({.first = first, .count = std::min(batchSize, pixels - first)});
-    camera->begin(recording, pass, maps(pass));
+    camera->begin(pass, maps(pass));
     if (submitted == 0) film.begin(recording, pass);
     const auto record = [&](CameraBatch& batch) {
         camera->record(recording, batch);
