@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
 #include "film_layout.glsl"
+#include "random.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"
 #include "shared_layers.h"
@@ -12,11 +13,13 @@
 
 ARGS(ShareGathersArgs)
 
-const int MOST_NEIGHBOURS = 49; // about as many pixels are looked at
+const int MOST_NEIGHBOURS = 49; // about as many pixels are looked at,
+const int WIDEST_WINDOW = 64;   // at most so far away
 
-// Columns and rows of pixels around: at most `reach` steps of `stride` pixels to either side.
+// Columns and rows of pixels: from `first` to `last`, by steps.
 struct Window {
-    ivec2 reach;
+    ivec2 first;
+    ivec2 last;
     ivec2 stride;
 };
 
@@ -33,17 +36,26 @@ vec2 pixelSteps(Split here) {
                                  length(up - toPoint * (dot(up, here.shading) / depth)));
 }
 
-// A window that holds the disc about a point, with steps wide enough for MOST_NEIGHBOURS, few where one side is narrow.
-Window windowAround(Split here) {
-    vec2 pixels = clamp(args.radius / pixelSteps(here), 0.0, 1024.0); // the disc's half widths
-    int side = int(sqrt(float(MOST_NEIGHBOURS)) - 1.0) / 2;
-    ivec2 least = min(ivec2(pixels), side), most = (MOST_NEIGHBOURS / (2 * least.yx + 1) - 1) / 2;
-    ivec2 stride = ivec2(pixels / vec2(most + 1)) + 1;
-    return Window(ivec2(pixels / vec2(stride)), stride);
+// The rows of a pixel's band, first and last: only pixels of one band share, so that a batch of whole bands has all
+// that it needs. Where bands meet differs from pass to pass.
+ivec2 bandRows(int row) {
+    int band = int(SHARING_BAND), first = (row + int(args.bandShift)) / band * band - int(args.bandShift);
+    return ivec2(max(first, 0), min(first + band, int(args.firstRow + args.count / args.width)) - 1);
 }
 
-// The band of a row: only pixels of one band share, so that a batch of whole bands has all that it needs.
-int bandOf(int row) { return (row + int(args.bandShift)) / int(SHARING_BAND); }
+// A window that holds the disc about the point of a pixel, within its band, with steps wide enough for MOST_NEIGHBOURS.
+// Which pixels it steps on is drawn for each pixel and pass, so that no pattern is seen.
+Window windowAround(Split here, ivec2 pixel) {
+    ivec2 disc = ivec2(clamp(args.radius / pixelSteps(here), 0.0, float(WIDEST_WINDOW)));
+    ivec2 rows = bandRows(pixel.y);
+    ivec2 first = max(pixel - disc, ivec2(0, rows.x)), last = min(pixel + disc, ivec2(args.width - 1u, rows.y));
+    ivec2 wide = last - first + 1, stride = ivec2(1);
+    while (wide.x * wide.y > MOST_NEIGHBOURS * stride.x * stride.y)
+        if (wide.x * stride.y >= wide.y * stride.x) stride.x++;
+        else stride.y++;
+    uint draw = hash(uint(pixel.y) * args.width + uint(pixel.x), args.pass);
+    return Window(first + ivec2(uvec2(draw & 0xffffu, draw >> 16) % uvec2(stride)), last, stride);
+}
 
 // Whether the point of a slot shares with another, at squared distance `distance2`.
 bool isNeighbour(Split here, Split there, out float distance2) {
@@ -75,21 +87,17 @@ void add(uint slot, bool isInner, inout Shared gathered) {
 Shared gatheredAround(uint slot, Split here) {
     Shared gathered = Shared(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     add(slot, true, gathered);
-    int width = int(args.width), row = int(slot) / width, rows = int(args.count) / width;
-    int column = int(slot) - row * width, band = bandOf(row + int(args.firstRow));
-    Window window = windowAround(here);
-    for (int y = row - window.reach.y * window.stride.y; y <= row + window.reach.y * window.stride.y;
-         y += window.stride.y) {
-        if (y < 0 || y >= rows || bandOf(y + int(args.firstRow)) != band) continue;
-        for (int x = column - window.reach.x * window.stride.x; x <= column + window.reach.x * window.stride.x;
-             x += window.stride.x) {
-            uint other = uint(y * width + x);
+    uint first = args.firstRow * args.width;
+    ivec2 pixel = ivec2((first + slot) % args.width, (first + slot) / args.width);
+    Window window = windowAround(here, pixel);
+    for (int y = window.first.y; y <= window.last.y; y += window.stride.y)
+        for (int x = window.first.x; x <= window.last.x; x += window.stride.x) {
+            uint other = uint(y) * args.width + uint(x) - first;
             float distance2;
-            if (x < 0 || x >= width || other == slot || !isNeighbour(here, args.splits.at[other], distance2)) continue;
+            if (other == slot || !isNeighbour(here, args.splits.at[other], distance2)) continue;
             if (isFinite(loadColumns(args.samples, args.stride, COLUMN_GATHERED, other)))
                 add(other, distance2 < 0.5 * args.radius * args.radius, gathered);
         }
-    }
     return gathered;
 }
 

@@ -103,7 +103,7 @@ struct ShadowArgs {
     uint stride;
 };
 
-const uint SHARING_BAND = 16u; // rows of pixels that share what their gather rays bring
+const uint SHARING_BAND = 32u; // rows of pixels that share what their gather rays bring
 
 struct ShareGathersArgs {
     PTR(DeviceScene) scene;
@@ -114,6 +114,7 @@ struct ShareGathersArgs {
     uint firstRow;
     uint width;     // of the picture
     uint bandShift; // rows of the first band that lie above the picture
+    uint pass;
     float radius;
 };
 

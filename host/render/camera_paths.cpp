@@ -37,7 +37,7 @@ static uint batchOf(uvec2 picture, uint wanted, bool shares) {
 }
 
 /// Rows of the first band that lie above the picture: where bands meet differs from pass to pass.
-static uint bandShift(uint pass) { return pass * 7 % SHARING_BAND; } // 7: each shift once in that many passes
+static uint bandShift(uint pass) { return pass * 13 % SHARING_BAND; } // 13: each once in that many passes
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
                          uint batchSize)
@@ -133,7 +133,7 @@ void CameraPaths::shareGathers(Recording& recording, const CameraBatch& batch) {
     if (!share || maps.marks) return;
     recording.run(*share, batch.count,
                   {scene.address, splits, samples, size, batch.count, batch.first / settings.size.x, settings.size.x,
-                   bandShift(pass), maps.sharingRadius});
+                   bandShift(pass), pass, maps.sharingRadius});
 }
 
 std::vector<CameraBatch> CameraPaths::batches(uint index) const {
