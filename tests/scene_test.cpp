@@ -348,7 +348,8 @@ TEST(Scene, OtherFormatsAreRecognised) {
                                                          {"Kaydara FBX Binary  \0"s, "an FBX file"},
                                                          {"PK\3\4", "a ZIP archive"}};
     for (const auto& [text, name] : files)
-        EXPECT_THAT(refusalOfMesh(text), AllOf(HasSubstr(name), HasSubstr("allowed is a Wavefront OBJ file"))) << name;
+        EXPECT_THAT(refusalOfMesh(text), AllOf(HasSubstr(name), HasSubstr("allowed is an OBJ, PLY or glTF file")))
+            << name;
 }
 
 TEST(Scene, NoPhotonsAreAllowedAsOnTheCommandLine) {

@@ -58,7 +58,7 @@ std::vector<std::string> sceneDifferences(const std::string& here, const std::st
         }
         lines.push_back("scene: " + change["path"].get<std::string>());
     }
-    if (lines.empty()) lines.push_back("scene: what its mesh files hold");
+    if (lines.empty()) lines.push_back("scene: what its meshes and imports hold");
     return lines;
 }
 
