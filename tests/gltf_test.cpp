@@ -259,7 +259,10 @@ TEST(Gltf, BuffersCountForTheIdentity) {
                         writeScene(model.gltf("data:application/octet-stream;base64," + base64), "inside.gltf"))));
     model.bytes[4 * 3 + 3] = 0x40; // the second vertex moves
     writeScene(model.bytes, "a b.bin");
-    EXPECT_NE(hash, hashOf(loadScene(outside.files[0])));
+    const Scene other = loadScene(outside.files[0]);
+    EXPECT_NE(hash, hashOf(other));
+    EXPECT_THAT(differences(identityOf(outside, outside.settings), identityOf(other, other.settings)),
+                testing::ElementsAre("scene: what the file \"a b.bin\" holds"));
 }
 
 /// The full model with one value changed or removed.

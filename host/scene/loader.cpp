@@ -1,6 +1,7 @@
 /// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
 #include "scene/box.h"
 #include "scene/bvh.h"
+#include "scene/hash.h"
 #include "scene/import.h"
 #include "scene/lights.h"
 #include "scene/reader.h"
@@ -8,6 +9,7 @@
 #include "scene/shapes.h"
 #include "scene/text.h"
 #include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -199,6 +201,21 @@ void readScene(Reader root, Scene& scene) {
     loader.finish();
 }
 
+/// Hashes of files but the first, for those who ask later what has changed.
+void hashFiles(Scene& scene) {
+    for (std::size_t i = 1; i < scene.files.size(); ++i) {
+        const std::string bytes = readBytes(scene.files[i], maxMeshBytes, "");
+        Hash hash;
+        for (std::size_t at = 0; at < bytes.size(); at += 4) {
+            std::uint32_t word = 0;
+            std::memcpy(&word, &bytes[at], std::min<std::size_t>(4, bytes.size() - at));
+            hash.add(word);
+        }
+        const auto name = scene.files[i].lexically_relative(scene.files.front().parent_path());
+        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] = hash.text();
+    }
+}
+
 } // namespace
 
 Scene loadScene(const std::filesystem::path& file) {
@@ -216,6 +233,7 @@ Scene loadScene(const std::filesystem::path& file) {
     const nlohmann::json json = parseJson(file, scene.text);
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
+    hashFiles(scene);
     chooseLights(scene, file);
     scene.lit = sphereOfLit(scene);
     scene.near = sphereOfNear(scene);

@@ -6,6 +6,7 @@
 #include "shared_scene.h"
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ struct View {
 };
 
 struct Scene {
-    Coordinates coordinates{};                // of all places and lengths here and on the device
-    std::string name;                         // the file's name without folder and extension
-    std::string text;                         // the scene file as read
-    std::vector<std::filesystem::path> files; // that were read: the scene file first, then meshes and imports
+    Coordinates coordinates{};                     // of all places and lengths here and on the device
+    std::string name;                              // the file's name without folder and extension
+    std::string text;                              // the scene file as read
+    std::vector<std::filesystem::path> files;      // that were read: the scene file first, then meshes and imports
+    std::map<std::string, std::string> fileHashes; // of the files after the first, by name relative to it
     std::vector<Node> nodes;
     std::vector<Leaf> leaves;
     std::vector<Primitive> primitives; // triangles, then spheres
