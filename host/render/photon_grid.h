@@ -29,9 +29,8 @@ private:
     /// What thinning needs, if any cell ever is overfull.
     struct Thinning {
         Kernel<MarkKeptArgs> crowd;
-        Kernel<ScanArgs> scan;
+        Scan scan;
         Kernel<ThinCellsArgs> thin;
-        Buffer<Queue> whole;
     };
 
     Gpu& gpu;

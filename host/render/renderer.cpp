@@ -16,6 +16,7 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
       batches(batchSizes), global(construct(MapKind::global, extentOf(input))),
       caustic(construct(MapKind::caustic, extentOf(input))), pilot(input, settings),
       film(gpu, settings.size, sceneHas) {
+    if (getenv("CB")) batches.camera = uint(atoi(getenv("CB")));
     constructCamera();
 }
 
@@ -44,7 +45,7 @@ std::optional<PhotonMapStage> Renderer::construct(MapKind kind, const Extent& ex
 
 /// What depends on the size of the film. Kernels that the old one has need not be compiled for the new one.
 void Renderer::constructCamera() {
-    CameraPaths paths(gpu, scene, sceneHas, settings, batches.camera);
+    CameraPaths paths(gpu, scene, sceneHas, settings, batches.camera, batches.rounds);
     camera.emplace(std::move(paths));
     if (!tracesLight(sceneHas, settings)) return;
     LightTracing tracing(gpu, scene, sceneHas, settings, flux, batches.photons);
@@ -122,7 +123,7 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
     const auto record = [&](CameraBatch& batch) {
         camera->record(recording, batch);
         if (light) light->recordSums(recording, camera->samples, batchSize, batch.first, batch.count);
-        film.add(recording, camera->samples, batchSize, batch.first, batch.count);
+        film.add(recording, camera->samples, batchSize, batch.first, batch.count, camera->unfinished());
     };
     try {
         for (; submitted < underWay.size(); submitted++) {
@@ -134,6 +135,13 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
         throw;
     }
     recording.wait();
+    for (CameraBatch& batch : underWay)
+        while (!camera->finish(batch)) {
+            CameraBatch again{.first = batch.first, .count = batch.count};
+            record(again);
+            recording.submit();
+            batch = again;
+        }
 }
 
 void Renderer::renderPass(uint pass) {

@@ -1,7 +1,7 @@
 /// A stable sort of key-value pairs on the device.
 #pragma once
 #include "gpu/recording.h"
-#include "shared_paths.h"
+#include "render/scan.h"
 #include "shared_sort.h"
 
 namespace vkpm {
@@ -24,9 +24,8 @@ public:
 private:
     Gpu& gpu;
     Buffer<uint> sums;
-    Buffer<Queue> queue;
     Kernel<SortCountArgs> countDigits;
-    Kernel<ScanArgs> scan;
+    Scan scan;
     Kernel<SortScatterArgs> scatter;
 };
 
