@@ -16,7 +16,6 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
       batches(batchSizes), global(construct(MapKind::global, extentOf(input))),
       caustic(construct(MapKind::caustic, extentOf(input))), pilot(input, settings),
       film(gpu, settings.size, sceneHas) {
-    if (getenv("CB")) batches.camera = uint(atoi(getenv("CB")));
     constructCamera();
 }
 
