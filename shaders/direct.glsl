@@ -3,7 +3,6 @@
 #define DIRECT_GLSL
 #include "common.glsl"
 #include "feature_checks.glsl"
-#include "light.glsl"
 #include "light_sampling.glsl"
 #include "offset.glsl"
 #include "shared_camera.h"

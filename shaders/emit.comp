@@ -7,7 +7,7 @@
 #include "compaction.glsl"
 #include "feature_checks.glsl"
 #include "guide.glsl"
-#include "light.glsl"
+#include "light_sampling.glsl"
 #include "offset.glsl"
 #include "projection_map.glsl"
 #include "random.glsl"

@@ -11,9 +11,7 @@ void require(DeviceScene scene, bool needed, bool has, uint id) {
 void requireLight(DeviceScene scene, Light light) {
     if (!checksFeatures) return;
     require(scene, scene.lightCount > 1u, hasManyLights, id_hasManyLights);
-    require(scene, light.kind == LIGHT_RECTANGLE, hasRectangleLights, id_hasRectangleLights);
-    require(scene, light.kind == LIGHT_TRIANGLE, hasTriangleLights, id_hasTriangleLights);
-    require(scene, light.kind == LIGHT_SPHERE, hasSphereLights, id_hasSphereLights);
+    require(scene, true, (lightKinds >> light.kind & 1u) != 0u, id_lightKinds);
     require(scene, light.twoSided != 0u, hasTwoSidedLights, id_hasTwoSidedLights);
 }
 
@@ -25,13 +23,11 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
     require(scene, !triangle, hasSpheres, id_hasSpheres);
     require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals,
             id_hasSmoothNormals);
-    require(scene, material.kind == MATERIAL_DIFFUSE, hasDiffuse, id_hasDiffuse);
+    require(scene, true, (materialKinds >> material.kind & 1u) != 0u, id_materialKinds);
     require(scene,
             triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE &&
                 material.kind == MATERIAL_DIFFUSE,
             hasSmoothDiffuse, id_hasSmoothDiffuse);
-    require(scene, material.kind == MATERIAL_MIRROR, hasMirror, id_hasMirror);
-    require(scene, glass, hasGlass, id_hasGlass);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
     require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);

@@ -60,39 +60,35 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(0, bool, hasTriangles, true)                                                                                     \
     X(1, bool, hasSpheres, true)                                                                                       \
     X(2, bool, hasSmoothNormals, true)                                                                                 \
-    X(3, bool, hasMirror, true)                                                                                        \
-    X(4, bool, hasGlass, true)                                                                                         \
-    X(5, bool, hasTint, true)                                                                                          \
-    X(6, bool, hasExactFresnel, true)                                                                                  \
-    X(7, bool, hasSchlickFresnel, true)                                                                                \
-    X(8, bool, hasManyLights, true)                                                                                    \
-    X(9, bool, hasRectangleLights, true)                                                                               \
-    X(10, bool, hasTriangleLights, true)                                                                               \
-    X(11, bool, hasSphereLights, true)                                                                                 \
-    X(12, bool, hasTwoSidedLights, true)                                                                               \
-    X(13, bool, hasGlobalMap, true)                                                                                    \
-    X(14, bool, hasCausticMap, true)                                                                                   \
-    X(15, bool, hasRadiusField, true)                                                                                  \
-    X(16, bool, hasNearest, true)                                                                                      \
-    X(17, uint, densityKernel, ANY)                                                                                    \
-    X(18, uint, integrator, ANY)                                                                                       \
-    X(19, uint, stackSize, 64)                                                                                         \
-    X(20, bool, hasEmissionLayer, true)                                                                                \
-    X(21, bool, hasDirectLayer, true)                                                                                  \
-    X(22, bool, hasSpecularLayer, true)                                                                                \
-    X(23, bool, hasCausticLayer, true)                                                                                 \
-    X(24, bool, hasIndirectLayer, true)                                                                                \
-    X(25, bool, hasAlbedo, true)                                                                                       \
-    X(26, bool, hasNormal, true)                                                                                       \
-    X(27, bool, hasDepth, true)                                                                                        \
-    X(28, bool, hasNoise, true)                                                                                        \
-    X(29, bool, hasDiffuse, true)                                                                                      \
-    X(30, bool, hasBias, true)                                                                                         \
-    X(31, bool, checksFeatures, false) /* kernels report what they meet and are without, see feature_checks.glsl */    \
-    X(32, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
-    X(33, bool, hasGuide, true)                                                                                        \
-    X(34, bool, hasSmoothDiffuse, true)                                                                                \
-    X(35, bool, hasContact, true)
+    X(3, uint, materialKinds, ANY) /* bits of the kinds that the scene has, see shared_kinds.h */                      \
+    X(4, bool, hasTint, true)                                                                                          \
+    X(5, bool, hasExactFresnel, true)                                                                                  \
+    X(6, bool, hasSchlickFresnel, true)                                                                                \
+    X(7, bool, hasManyLights, true)                                                                                    \
+    X(8, uint, lightKinds, ANY)                                                                                        \
+    X(9, bool, hasTwoSidedLights, true)                                                                                \
+    X(10, bool, hasGlobalMap, true)                                                                                    \
+    X(11, bool, hasCausticMap, true)                                                                                   \
+    X(12, bool, hasRadiusField, true)                                                                                  \
+    X(13, bool, hasNearest, true)                                                                                      \
+    X(14, uint, densityKernel, ANY)                                                                                    \
+    X(15, uint, integrator, ANY)                                                                                       \
+    X(16, uint, stackSize, 64)                                                                                         \
+    X(17, bool, hasEmissionLayer, true)                                                                                \
+    X(18, bool, hasDirectLayer, true)                                                                                  \
+    X(19, bool, hasSpecularLayer, true)                                                                                \
+    X(20, bool, hasCausticLayer, true)                                                                                 \
+    X(21, bool, hasIndirectLayer, true)                                                                                \
+    X(22, bool, hasAlbedo, true)                                                                                       \
+    X(23, bool, hasNormal, true)                                                                                       \
+    X(24, bool, hasDepth, true)                                                                                        \
+    X(25, bool, hasNoise, true)                                                                                        \
+    X(26, bool, hasBias, true)                                                                                         \
+    X(27, bool, checksFeatures, false) /* kernels report what they meet and are without, see feature_checks.glsl */    \
+    X(28, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
+    X(29, bool, hasGuide, true)                                                                                        \
+    X(30, bool, hasSmoothDiffuse, true)                                                                                \
+    X(31, bool, hasContact, true)
 
 #ifdef __cplusplus
 struct Features {

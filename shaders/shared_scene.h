@@ -2,6 +2,7 @@
 #ifndef SHARED_SCENE_H
 #define SHARED_SCENE_H
 #include "shared.h"
+#include "shared_kinds.h"
 
 SHARED_BEGIN
 
@@ -61,21 +62,13 @@ struct Normals {
 };
 BUFFER(Normals)
 
-const uint MATERIAL_DIFFUSE = 0u; // Lambert, both sides
-const uint MATERIAL_MIRROR = 1u;  // perfect mirror, both sides
-const uint MATERIAL_GLASS = 2u;   // smooth dielectric interface, its inside against the normal
-
 struct Material {
-    uint kind;
+    uint kind;    // MATERIAL_...
     vec3 color;   // albedo, reflectance, or factor at each refraction, within [0, 1]
     float ior;    // glass: index inside / index outside
     uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
 };
 BUFFER(Material)
-
-const uint LIGHT_RECTANGLE = 0u; // a + x u + y v, x and y in [0, 1]; normal u x v
-const uint LIGHT_TRIANGLE = 1u;  // a, a + u, a + v; normal u x v
-const uint LIGHT_SPHERE = 2u;    // centre a, radius u.x; normal outward
 
 /// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
 struct Light {
@@ -83,7 +76,7 @@ struct Light {
     vec3 u;
     vec3 v;
     vec3 radiance;
-    uint kind;
+    uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
     float area;
     float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1

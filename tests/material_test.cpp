@@ -175,7 +175,7 @@ TEST(Scatter, MirrorsReflectFromBothSides) {
     const Material mirror{MATERIAL_MIRROR, tint, 0};
     const vec3 n = glm::normalize(vec3{1, 2, 3});
     for (const vec3 d : {glm::normalize(vec3{1, -3, -2}), glm::normalize(vec3{1, 3, 2})})
-        for (const Features& features : {flat, smooth, Features{.hasGlass = 0}}) {
+        for (const Features& features : {flat, smooth, Features{.materialKinds = 1u << MATERIAL_MIRROR}}) {
             const ScatterValues y = scatter({{mirror, n, n, d, 0.999f}}, features)[0];
             EXPECT_LT(glm::length(y.direction - (d - 2 * glm::dot(d, n) * n)), 1e-6);
             EXPECT_EQ(y.weight, tint);
@@ -255,7 +255,8 @@ TEST(Material, IsDiffuse) {
     const std::vector<Material> all{
         {MATERIAL_DIFFUSE, tint, 0}, {MATERIAL_MIRROR, tint, 0}, {MATERIAL_GLASS, tint, 1.5f}};
     EXPECT_EQ(map<uint>("is_diffuse", all), (std::vector<uint>{1, 0, 0}));
-    EXPECT_EQ(map<uint>("is_diffuse", std::vector{all[0]}, {.hasMirror = 0, .hasGlass = 0}), std::vector<uint>{1});
+    EXPECT_EQ(map<uint>("is_diffuse", std::vector{all[0]}, {.materialKinds = 1u << MATERIAL_DIFFUSE}),
+              std::vector<uint>{1});
 }
 
 } // namespace

@@ -442,16 +442,14 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     Features features = sceneFeatures(plain, plain.settings);
     EXPECT_EQ(features.hasTriangles, 1u);
     EXPECT_EQ(features.hasSpheres, 1u);
-    EXPECT_EQ(features.hasMirror, 0u);
-    EXPECT_EQ(features.hasGlass, 0u);
+    EXPECT_EQ(features.materialKinds, 1u << MATERIAL_DIFFUSE);
     EXPECT_EQ(features.hasSmoothNormals, 0u);
     EXPECT_EQ(features.hasManyLights, 0u);
     EXPECT_EQ(features.hasExactFresnel, 0u);
     EXPECT_EQ(features.hasSchlickFresnel, 0u); // no glass
     EXPECT_EQ(features.hasCausticMap, 0u);
     EXPECT_EQ(features.hasGlobalMap, 1u);
-    EXPECT_EQ(features.hasRectangleLights, 1u);
-    EXPECT_EQ(features.hasSphereLights, 0u);
+    EXPECT_EQ(features.lightKinds, 1u << LIGHT_RECTANGLE);
     EXPECT_EQ(features.hasTwoSidedLights, 0u);
     EXPECT_EQ(features.hasNearest, 1u);
     EXPECT_EQ(features.densityKernel, DENSITY_KERNEL_CONE);
@@ -461,7 +459,7 @@ TEST(Scene, FeaturesAreWhatShapesUse) {
     json specular = smallScene();
     specular["shapes"][0]["material"] = "water";
     features = sceneFeatures(loadJson(specular), Settings{});
-    EXPECT_EQ(features.hasGlass, 1u);
+    EXPECT_EQ(features.materialKinds, 1u << MATERIAL_DIFFUSE | 1u << MATERIAL_GLASS);
     EXPECT_EQ(features.hasExactFresnel, 1u);
     EXPECT_EQ(features.hasSchlickFresnel, 0u);
     EXPECT_EQ(features.hasCausticMap, 1u);

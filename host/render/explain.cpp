@@ -1,6 +1,7 @@
 /// Features in words.
 #include "render/explain.h"
 #include "render/features.h"
+#include "shared_kinds.h"
 #include "shared_layers.h"
 #include <fmt/format.h>
 
@@ -10,8 +11,8 @@ namespace {
 /// Why a photon map is left out; empty if it is not.
 std::string mapAbsent(bool needed, bool caustic, const Features& features, const Settings& settings) {
     if (needed) return "";
-    if (!features.hasDiffuse) return "the scene has no diffuse surface";
-    if (caustic && !features.hasMirror && !features.hasGlass) return "the scene has no specular surface";
+    if (!hasMaterials(features, DIFFUSE_KINDS)) return "the scene has no diffuse surface";
+    if (caustic && !hasMaterials(features, SPECULAR_KINDS)) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
     if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
     const bool uses = settings.integrator == INTEGRATOR_PHOTON ||
@@ -21,9 +22,9 @@ std::string mapAbsent(bool needed, bool caustic, const Features& features, const
 
 /// Why a layer that was asked for has no light.
 std::string layerAbsent(uint layer, const Features& features, const Settings& settings) {
-    const bool specular = features.hasMirror || features.hasGlass;
+    const bool specular = hasMaterials(features, SPECULAR_KINDS);
     if (layer >= LAYER_COUNT) return "nobody asked for it";
-    if (!features.hasDiffuse && layer != LAYER_EMISSION && layer != LAYER_SPECULAR)
+    if (!hasMaterials(features, DIFFUSE_KINDS) && layer != LAYER_EMISSION && layer != LAYER_SPECULAR)
         return "the scene has no diffuse surface";
     if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
     const bool finds =
@@ -62,15 +63,16 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasSmoothNormals", f.hasSmoothNormals, "smooth normals");
     has("hasContact", f.hasContact, "glass next to something opaque");
     has("hasSmoothDiffuse", f.hasSmoothDiffuse, "diffuse meshes with smooth normals");
-    has("hasMirror", f.hasMirror, "mirrors");
-    has("hasGlass", f.hasGlass, "glass");
+#define X(id, NAME, name, lobes, words) has("has" #name, f.materialKinds >> id & 1, words);
+    MATERIALS(X)
+#undef X
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");
     because("hasManyLights", f.hasManyLights ? "" : "the scene has one light", "the scene has several lights");
-    has("hasRectangleLights", f.hasRectangleLights, "rectangles that emit");
-    has("hasTriangleLights", f.hasTriangleLights, "meshes that emit");
-    has("hasSphereLights", f.hasSphereLights, "spheres that emit");
+#define X(id, NAME, name, words) has("has" #name "Lights", f.lightKinds >> id & 1, words);
+    LIGHTS(X)
+#undef X
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
     because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light",
             "photons of a light far away are aimed at the scene");
@@ -97,7 +99,6 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
             : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it"
                                                  : "nothing is read from a photon map",
             "photon maps blur");
-    has("hasDiffuse", f.hasDiffuse, "diffuse surfaces");
     because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;
 }

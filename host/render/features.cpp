@@ -22,7 +22,7 @@ void askFor(uint layers, Features& features) {
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
-    return settings.integrator != INTEGRATOR_PHOTON_MAP && f.hasDiffuse &&
+    return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS) &&
            (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
 }
 
@@ -39,16 +39,16 @@ static void chooseLayers(Features& f, const Settings& settings) {
     const bool path = settings.integrator == INTEGRATOR_PATH;
     const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
     const bool light = settings.integrator == INTEGRATOR_LIGHT;
-    const bool specular = f.hasMirror || f.hasGlass;
-    const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && f.hasDiffuse;
+    const bool diffuse = hasMaterials(f, DIFFUSE_KINDS), specular = hasMaterials(f, SPECULAR_KINDS);
+    const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && diffuse;
     const bool caustic =
-        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && f.hasDiffuse && specular;
+        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && diffuse && specular;
     askFor(settings.layers, f);
     f.hasEmissionLayer &= !map && !light;
-    f.hasDirectLayer &= !map && !light && f.hasDiffuse;
+    f.hasDirectLayer &= !map && !light && diffuse;
     f.hasSpecularLayer &= !light && specular;
-    f.hasCausticLayer &= caustic || (path && f.hasDiffuse && specular);
-    f.hasIndirectLayer &= global || (path && f.hasDiffuse);
+    f.hasCausticLayer &= caustic || (path && diffuse && specular);
+    f.hasIndirectLayer &= global || (path && diffuse);
     f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
     f.hasCausticMap = caustic && !light && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
     f.hasBias &= asksMaps(f) && !settings.showPoints;
@@ -75,16 +75,15 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSmoothDiffuse = std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
         return p.normals != NONE && scene.materials[p.material].kind == MATERIAL_DIFFUSE;
     });
-    features.hasMirror = anyMaterial([](const Material& m) { return m.kind == MATERIAL_MIRROR; });
-    features.hasGlass = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS; });
-    features.hasContact = features.hasGlass != 0 && glassMayTouchOpaque(scene);
+    features.materialKinds = features.lightKinds = 0;
+    for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
+    for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
+    const bool glass = hasMaterials(features, 1u << MATERIAL_GLASS);
+    features.hasContact = glass && glassMayTouchOpaque(scene);
     features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
-    features.hasExactFresnel = features.hasGlass && !settings.schlick;
-    features.hasSchlickFresnel = features.hasGlass && settings.schlick;
+    features.hasExactFresnel = glass && !settings.schlick;
+    features.hasSchlickFresnel = glass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;
-    features.hasRectangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_RECTANGLE; });
-    features.hasTriangleLights = anyLight([](const Light& light) { return light.kind == LIGHT_TRIANGLE; });
-    features.hasSphereLights = anyLight([](const Light& light) { return light.kind == LIGHT_SPHERE; });
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasGuide = 0; // the renderer finds out
     uint farLights = 0;
@@ -92,7 +91,6 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
         if (isFar(scene, light))
             farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
     features.hasFarLights = std::min(farLights, 2u);
-    features.hasDiffuse = anyMaterial([](const Material& m) { return m.kind == MATERIAL_DIFFUSE; });
     chooseLayers(features, settings);
     features.hasNearest = settings.nearest > 0;
     features.hasRadiusField = features.hasCausticMap && !settings.causticRadius && settings.nearest == 0;

@@ -4,6 +4,9 @@
 
 namespace vkpm {
 
+/// Whether there are materials of the kinds given as bits: DIFFUSE_KINDS, SPECULAR_KINDS.
+inline bool hasMaterials(const Features& features, uint kinds) { return (features.materialKinds & kinds) != 0; }
+
 /// What the scene has, as specialization constants; settings add integrator, kernel, Fresnel and the layers asked for.
 Features sceneFeatures(const Scene& scene, const Settings& settings);
 

@@ -2,6 +2,7 @@
 #include "scene/box.h"
 #include "scene/bvh.h"
 #include "scene/lights.h"
+#include "scene/materials.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
@@ -72,31 +73,6 @@ void readSettings(Reader reader, Settings& settings) {
 }
 static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSITY_KERNEL_GAUSS == 2 &&
               DENSITY_KERNEL_EPANECHNIKOV == 3);
-
-/// Index inside over index outside.
-float readIor(Reader& glass) {
-    const Reader iorReader = glass.at("ior");
-    const float inside = iorReader.number(positive);
-    const auto exterior = glass.find("exteriorIor");
-    const float ratio = inside / (exterior ? exterior->number(positive) : 1.0f);
-    if (!(ratio >= 1e-3f && ratio <= 1e3f))
-        iorReader.fail(fmt::format("found {} times the index outside", ratio), "allowed is a ratio from 0.001 to 1000");
-    return ratio;
-}
-
-Material readMaterial(Reader reader) {
-    Material material{MATERIAL_DIFFUSE, vec3{1}, 1};
-    material.kind = static_cast<uint>(reader.at("type").choice({"diffuse", "mirror", "glass"}));
-    if (material.kind == MATERIAL_DIFFUSE) material.color = reader.at("albedo").color(fraction);
-    if (material.kind == MATERIAL_MIRROR) material.color = reader.at("reflectance").color(fraction);
-    if (material.kind == MATERIAL_GLASS) {
-        material.ior = readIor(reader);
-        if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
-    }
-    reader.finish();
-    return material;
-}
-static_assert(MATERIAL_DIFFUSE == 0 && MATERIAL_MIRROR == 1 && MATERIAL_GLASS == 2);
 
 std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
     std::map<std::string, uint> indices;

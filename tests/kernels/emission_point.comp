@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
-#include "light.glsl"
+#include "light_sampling.glsl"
 #include "shared_scene.h"
 
 LightValues values(LightPoint p) { return LightValues(p.position, p.magnitude, p.normal); }

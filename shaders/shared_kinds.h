@@ -1,0 +1,45 @@
+// Kinds of materials and lights: the lists that C++ and GLSL read. A new kind is a line here and a file,
+// bsdf_<kind>.glsl or light_<kind>.glsl.
+#ifndef SHARED_KINDS_H
+#define SHARED_KINDS_H
+#include "shared.h"
+
+SHARED_BEGIN
+
+// Lobes: parts of the light that a surface scatters. Each event of a path has the label of the lobe that it took.
+const uint LOBE_DIFFUSE = 1u; // D: photons are gathered there
+const uint LOBE_DELTA = 2u;   // S: light goes on in one direction
+
+// id, constant, name of functions, lobes that it may have, in words
+#define MATERIALS(X)                                                                                                   \
+    X(0, DIFFUSE, Diffuse, LOBE_DIFFUSE, "diffuse surfaces") /* Lambert, both sides */                                 \
+    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")              /* perfect, both sides */                                 \
+    X(2, GLASS, Glass, LOBE_DELTA, "glass")                  /* smooth, its inside against the normal */
+
+// id, constant, name of functions, in words
+#define LIGHTS(X)                                                                                                      \
+    X(0, RECTANGLE, Rectangle, "rectangles that emit") /* a + x u + y v, x and y in [0, 1]; normal u x v */            \
+    X(1, TRIANGLE, Triangle, "meshes that emit")       /* a, a + u, a + v; normal u x v */                             \
+    X(2, SPHERE, Sphere, "spheres that emit")          /* centre a, radius u.x; normal outward */
+
+#define X(id, NAME, name, lobes, words) const uint MATERIAL_##NAME = id;
+MATERIALS(X)
+#undef X
+#define X(id, NAME, name, words) const uint LIGHT_##NAME = id;
+LIGHTS(X)
+#undef X
+
+// Bits of the kinds of materials that may have a lobe.
+#define X(id, NAME, name, lobes, words) | ((lobes & LOBE_DIFFUSE) != 0u ? 1u << id : 0u)
+const uint DIFFUSE_KINDS = 0u MATERIALS(X);
+#undef X
+#define X(id, NAME, name, lobes, words) | ((lobes & LOBE_DELTA) != 0u ? 1u << id : 0u)
+const uint SPECULAR_KINDS = 0u MATERIALS(X);
+#undef X
+
+#define X(id, NAME, name, words) | 1u << id
+const uint ALL_LIGHTS = 0u LIGHTS(X);
+#undef X
+
+SHARED_END
+#endif
