@@ -6,15 +6,12 @@
 
 SHARED_BEGIN
 
-const uint SCAN_BLOCK = 4096u; // values of a long array that a group takes
-
 struct ScanArgs {
-    PTR(uint) values;     // become their exclusive prefix sums, with the total behind them,
-    ADDRESS(uint) sums;   // or stay, and the sums of blocks go here
-    ADDRESS(uint) before; // sums that blocks begin with; 0: none
-    ADDRESS(uint) total;  // also goes here, if anyone asks
-    uint count;
-    uint blockSize;
+    PTR(uint) values; // becomes its exclusive prefix sum, with the total behind it
+    PTR(Queue) queue;
+    ADDRESS(uint) before; // a sum to begin with, which becomes the total; 0: none
+    uint kinds;
+    uint blockSize; // values per kind: the queue's count over this, rounded up
 };
 
 const uint SORT_BITS = 8u;

@@ -16,8 +16,8 @@ const float pixelReach = 2, rayReach = 8;
 
 const uint roundsAtOnce = 4; // recorded before the host looks whether any path is left
 
-// Recorded beyond those that paths have needed so far. The longest path is a matter of luck: too many rounds cost next to
-// nothing, too few a batch.
+// Recorded beyond those that paths have needed so far. The longest path is a matter of luck: too many rounds cost next
+// to nothing, too few a batch.
 const uint spareRounds = 8;
 
 RayCounts CameraBatch::rays() const {
@@ -33,9 +33,9 @@ RayCounts CameraBatch::rays() const {
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
                          uint batchSize, uint firstRounds)
     : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batchSize)),
-      rounds(firstRounds),
-      compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      progress(gpu, "camera progress", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
+      rounds(firstRounds), compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size),
+      hits(gpu, "camera hits", size), progress(gpu, "camera progress", 1), eye(gpu, "eye", features),
+      traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
     if (asksLights(features, settings)) {
         shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);

@@ -9,9 +9,9 @@ namespace vkpm {
 Compaction::Compaction(Gpu& gpu, const std::string& name, uint capacity, uint kindCount)
     : queues(gpu, name + " queues", kindCount + 1), list(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
       flags(gpu, name + " flags", COMPACTION_SUMS + std::uint64_t(capacity)), kinds(kindCount),
-      nextQueues(gpu, name + " queues", kindCount + 1), nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
-      nextFlags(gpu, name + " flags", COMPACTION_SUMS + std::uint64_t(capacity)),
-      kernel(gpu, "compact") {
+      nextQueues(gpu, name + " queues", kindCount + 1),
+      nextList(gpu, name + " lists", std::uint64_t(capacity) * kindCount),
+      nextFlags(gpu, name + " flags", COMPACTION_SUMS + std::uint64_t(capacity)), kernel(gpu, "compact") {
     assert(capacity <= COMPACTION_BLOCK * MAX_COMPACTION_BLOCKS);
 }
 

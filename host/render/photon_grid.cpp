@@ -15,11 +15,13 @@ PhotonGrid::PhotonGrid(Gpu& device, std::string label, uint bits)
 void PhotonGrid::thin(const Buffer<Photon>& photons, uint count, uint pass) {
     if (!isOverfull) return;
     if (!thinning)
-        thinning.emplace(Thinning{{gpu, "mark_kept"}, Scan(gpu), {gpu, "thin_cells"}});
+        thinning.emplace(Thinning{{gpu, "mark_kept"}, {gpu, "scan"}, {gpu, "thin_cells"}, {gpu, name + " whole", 1}});
+    const Queue all{.count = count};
     uint left = 0;
     Recording recording(gpu);
+    recording.write(thinning->whole, std::span(&all, 1));
     recording.run(thinning->crowd, count, {sort.keys, cells, sort.spareValues, count, pass});
-    thinning->scan.record(recording, sort.spareValues, count);
+    recording.run(thinning->scan, GROUP, {sort.spareValues, thinning->whole, {}, 1, 1});
     recording.run(thinning->thin, count,
                   {photons, sort.values, sort.keys, cells, sort.spareValues, arranged, sort.spareKeys, count, pass});
     recording.read(sort.spareValues, count, left);

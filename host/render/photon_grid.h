@@ -29,8 +29,9 @@ private:
     /// What thinning needs, if any cell ever is overfull.
     struct Thinning {
         Kernel<MarkKeptArgs> crowd;
-        Scan scan;
+        Kernel<ScanArgs> scan;
         Kernel<ThinCellsArgs> thin;
+        Buffer<Queue> whole;
     };
 
     Gpu& gpu;

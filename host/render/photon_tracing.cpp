@@ -26,9 +26,9 @@ PhotonTracing::PhotonTracing(Gpu& device, const UploadedScene& uploaded, const F
     : gpu(device), scene(uploaded), features(has), kind(mapKind), count(photonCount), seed(sequence),
       batchSize(std::min(size, count)), name(mapKind == MapKind::caustic ? "caustic photon" : "global photon"),
       compaction(gpu, name, batchSize, PHOTON_QUEUES), paths(gpu, name + " paths", batchSize),
-      counts(gpu, name + " counts", batchSize + 1ull), stored(gpu, name + " stored", 1),
+      counts(gpu, name + " counts", batchSize + 1ull), stored(gpu, name + " stored", 1), whole(gpu, name + " batch", 1),
       status(gpu, name + " status", 1), emit(gpu, "emit", features), scatter(gpu, "scatter", features),
-      scan(gpu), placeKernel(gpu, "store_photons") {
+      scan(gpu, "scan"), placeKernel(gpu, "store_photons") {
     const uint perPhoton = kind == MapKind::caustic ? 1 : 2; // to begin with
     makeRoom(std::uint64_t(perPhoton) * batchSize, 0);
 }
@@ -85,7 +85,9 @@ void PhotonTracing::followEnds(Recording& recording, Batch& batch) {
 
 /// Puts the deposits of a batch behind the photons of the batches before it, and counts those that are not finite.
 void PhotonTracing::recordPhotons(Recording& recording, Batch& batch) {
-    scan.record(recording, counts, batch.size, stored);
+    const Queue all{.count = batch.size};
+    recording.write(whole, std::span(&all, 1));
+    recording.run(scan, GROUP, {counts, whole, stored, 1, 1});
     recording.run(
         placeKernel, deposits.size(),
         {deposits, counts, photons, status, static_cast<uint>(deposits.size()), static_cast<uint>(photons.size())});

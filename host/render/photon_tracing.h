@@ -1,7 +1,6 @@
 /// Photons from the lights to the diffuse surfaces where they arrive.
 #pragma once
 #include "render/compaction.h"
-#include "render/scan.h"
 #include "render/uploaded_scene.h"
 #include "shared_paths.h"
 #include "shared_photons.h"
@@ -93,10 +92,11 @@ private:
     Buffer<PhotonDeposit> deposits;
     Buffer<uint> counts; // of a path's deposits, then where they go
     Buffer<uint> stored; // of the batches so far
+    Buffer<Queue> whole; // all paths of the batch
     Buffer<Status> status;
     Kernel<EmitArgs> emit;
     Kernel<ScatterArgs> scatter;
-    Scan scan;
+    Kernel<ScanArgs> scan;
     Kernel<StorePhotonsArgs> placeKernel;
 };
 

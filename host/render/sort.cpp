@@ -9,7 +9,8 @@ namespace vkpm {
 const uint digits = 1u << SORT_BITS;
 
 Sort::Sort(Gpu& device)
-    : gpu(device), countDigits(gpu, "sort_count"), scan(gpu), scatter(gpu, "sort_scatter") {}
+    : gpu(device), queue(gpu, "sort queue", 1), countDigits(gpu, "sort_count"), scan(gpu, "scan"),
+      scatter(gpu, "sort_scatter") {}
 
 void Sort::reserve(std::uint64_t count) {
     if (keys.size() >= count) return;
@@ -21,11 +22,12 @@ void Sort::reserve(std::uint64_t count) {
 
 void Sort::sort(Recording& recording, uint count, uint bits) {
     if (count == 0) return; // there may be no buffers
-    const uint blocks = (count + SORT_BLOCK - 1) / SORT_BLOCK;
-    const std::uint64_t threads = std::uint64_t(blocks) * GROUP;
+    const Queue whole{.count = count};
+    recording.write(queue, std::span(&whole, 1));
+    const std::uint64_t threads = std::uint64_t((count + SORT_BLOCK - 1) / SORT_BLOCK) * GROUP;
     for (uint shift = 0; shift < bits; shift += SORT_BITS) {
         recording.run(countDigits, threads, {keys, sums, count, shift});
-        scan.record(recording, sums, digits * blocks);
+        recording.run(scan, GROUP, {sums, queue, {}, digits, SORT_BLOCK});
         recording.run(scatter, threads, {keys, values, spareKeys, spareValues, sums, count, shift});
         std::swap(keys, spareKeys);
         std::swap(values, spareValues);

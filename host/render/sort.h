@@ -1,7 +1,7 @@
 /// A stable sort of key-value pairs on the device.
 #pragma once
 #include "gpu/recording.h"
-#include "render/scan.h"
+#include "shared_paths.h"
 #include "shared_sort.h"
 
 namespace vkpm {
@@ -24,8 +24,9 @@ public:
 private:
     Gpu& gpu;
     Buffer<uint> sums;
+    Buffer<Queue> queue;
     Kernel<SortCountArgs> countDigits;
-    Scan scan;
+    Kernel<ScanArgs> scan;
     Kernel<SortScatterArgs> scatter;
 };
 
