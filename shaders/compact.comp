@@ -11,25 +11,45 @@ ARGS(CompactArgs)
 const uint PART = COMPACTION_BLOCK / GROUP;
 shared uvec4 counts[GROUP];
 
-// The queue that the next steps run on.
-void writeQueue(uint kind, uint first, uint count) {
-    Queue old = args.queues.at[kind];
-    uint groups = (count + GROUP - 1u) / GROUP;
+uint blocksOf(uint count) { return (count + COMPACTION_BLOCK - 1u) / COMPACTION_BLOCK; }
+
+// How many groups a dispatch has.
+Queue queueOf(uint groups, uint first, uint count, uint base) {
     uint columns = min(groups, 65535u);
     uint rows = columns == 0u ? 0u : (groups + columns - 1u) / columns;
-    args.nextQueues.at[kind] = Queue(columns, rows, 1u, first, count, old.base + old.count);
+    return Queue(columns, rows, 1u, first, count, base);
+}
+
+// The queue that the next steps run on. Without paths there is one more round of one group, after which both sets of
+// queues are empty, and then none: what is recorded in vain costs next to nothing.
+void writeQueue(uint kind, uint first, uint count) {
+    bool isEmpty = args.queues.at[0].count == 0u;
+    Queue old = args.queues.at[kind];
+    Queue next = queueOf((count + GROUP - 1u) / GROUP, first, count, old.base + old.count);
+    args.nextQueues.at[kind] = next;
+    if (kind == QUEUE_CONTINUE) {
+        Queue groups = queueOf(isEmpty ? 0u : max(blocksOf(count), 1u), 0u, 0u, 0u);
+        args.nextQueues.at[args.kinds] = groups;
+        if (isEmpty) args.queues.at[args.kinds] = groups;
+        if (count > 0u && args.progress != uvec2(0u)) {
+            PathRoundsPtr(args.progress).at[0].rounds = max(PathRoundsPtr(args.progress).at[0].rounds, args.round);
+            if (args.isLast != 0u) PathRoundsPtr(args.progress).at[0].unfinished = 1u;
+        }
+    }
+    if (isEmpty) args.queues.at[kind] = next;
 }
 
 void main() {
     uint count = args.queues.at[0].count;
     uint first = args.queues.at[0].first;
-    uint blocks = (count + COMPACTION_BLOCK - 1u) / COMPACTION_BLOCK;
+    uint blocks = blocksOf(count);
     uint block = groupIndex();
     uint index = gl_LocalInvocationIndex;
 
-    // The sums for the flags of the next round.
+    // The sums for the flags of the next round, which has no more blocks.
     uint all = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GROUP;
-    for (uint i = threadIndex(); i < COMPACTION_SUMS; i += all) args.nextFlags.at[i] = 0u;
+    for (uint i = threadIndex(); i < args.kinds * blocks; i += all)
+        args.nextFlags.at[sumAt(i / blocks, i % blocks)] = 0u;
 
     // Where each kind starts in the new list, and how many of it the blocks before have.
     uint next[EYE_QUEUES];

@@ -20,6 +20,7 @@ void blacken(uint slot) {
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
+    if (args.unfinished != uvec2(0u) && uintPtr(args.unfinished).at[0] != 0u) return;
     uint pixel = args.firstPixel + slot;
     blacken(slot);
     if (hasNoise)

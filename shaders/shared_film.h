@@ -76,6 +76,7 @@ struct FilmArgs {
     PTR(float) samples; // [column][stride], of a pass
     PTR(float) sums;    // [column][pixels], of a run of passes; becomes those of both
     PTR(Status) status;
+    ADDRESS(uint) unfinished; // if that is not 0, nothing is taken; 0: nothing may be unfinished
     uint stride;
     uint pixels;
     uint firstPixel;

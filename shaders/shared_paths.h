@@ -78,14 +78,24 @@ const uint COMPACTION_BLOCK = 4096u; // places of a list that a group compacts
 const uint MAX_COMPACTION_BLOCKS = 1024u;
 const uint COMPACTION_SUMS = MAX_COMPACTION_BLOCKS * EYE_QUEUES; // words before the flags
 
+/// How far the paths of a batch have come.
+struct PathRounds {
+    uint rounds;     // after which paths went on
+    uint unfinished; // 1: some would have gone on after the last round
+};
+BUFFER(PathRounds)
+
 struct CompactArgs {
-    PTR(Queue) queues; // one per kind; the first is the one that is compacted
+    PTR(Queue) queues; // one per kind; the first is the one that is compacted. Then that of the groups which do that
     PTR(uint) list;
     PTR(uint) flags; // see compaction.glsl
     PTR(Queue) nextQueues;
     PTR(uint) nextList;
-    PTR(uint) nextFlags; // its sums become 0
+    PTR(uint) nextFlags;          // its sums become 0
+    ADDRESS(PathRounds) progress; // 0: nobody asks
     uint kinds;
+    uint round;  // of paths, the first is 1
+    uint isLast; // 1: no path should go on
 };
 
 SHARED_END

@@ -78,11 +78,11 @@ TEST(Batches, SizesDoNotMatter) {
                 EXPECT_GT(layerMean(whole, LAYER_CAUSTIC) + layerMean(whole, LAYER_SPECULAR), 0);
             }
             for (const BatchSizes batches :
-                 {BatchSizes{1u << 16, 100}, {1000, 1u << 16}, {64, 1280}, {2999, 1279}, {777, 333}}) {
+                 {BatchSizes{1u << 16, 100, 2}, {1000, 1u << 16}, {64, 1280, 1}, {2999, 1279}, {777, 333}}) {
                 const std::vector<Pixel> parts = renderInBatches(scene, integrator, batches);
                 EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
                     << name << ", integrator " << integrator << ", batches of " << batches.photons << " photons and "
-                    << batches.camera << " paths";
+                    << batches.camera << " paths, at first " << batches.rounds << " rounds";
             }
         }
 }

@@ -14,7 +14,11 @@ namespace vkpm {
 // they cover more.
 const float pixelReach = 2, rayReach = 8;
 
-const uint bouncesAtOnce = 4; // recorded before the host looks whether any path is left
+const uint roundsAtOnce = 4; // recorded before the host looks whether any path is left
+
+// Recorded beyond those that paths have needed so far. The longest path is a matter of luck: too many rounds cost next
+// to nothing, too few a batch.
+const uint spareRounds = 8;
 
 RayCounts CameraBatch::rays() const {
     RayCounts rays;
@@ -40,12 +44,13 @@ static uint batchOf(uvec2 picture, uint wanted, bool shares) {
 static uint bandShift(uint pass) { return pass * 13 % SHARING_BAND; } // 13: each once in that many passes
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
-                         uint batchSize)
+                         uint batchSize, uint firstRounds)
     : gpu(device), scene(uploaded), settings(set), features(has), shares(sharesGathers(has, set)),
       batch(batchOf(set.size, batchSize, shares)),
-      size(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))),
+      size(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))), rounds(firstRounds),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
+      progress(gpu, "camera progress", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features),
+      shade(gpu, "shade", features) {
     const Columns columns(features);
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(columns.cameraColumns()) * size);
     if (asksLights(features, settings)) {
@@ -85,7 +90,8 @@ void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMa
                   {map, queries, queue, compaction.list, marks.bits, marks.cellWidth, reach});
 }
 
-void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounce) {
+/// One bounce of all paths under way, and the answers to what they ask.
+void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round) {
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
@@ -104,12 +110,12 @@ void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounc
                    of.sequence,
                    of.index,
                    settings.seed,
-                   bounce,
+                   of.sequence == SAMPLES_EYE ? round : round + 1, // bounces before
                    features.hasCausticMap,
                    maps.nearDistance,
                    pixelAngle,
                    settings.integrator});
-    compaction.compact(recording);
+    compaction.compact(recording, round + 1, round + 1 == rounds, progress);
 
     const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
     if (!splits) castShadowRays(recording);
@@ -118,14 +124,15 @@ void CameraPaths::recordBounce(Recording& recording, const Paths& of, uint bounc
     if (!splits) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);
 }
 
-/// The paths of a queue from a bounce on, until the device says that none is left.
-void CameraPaths::followPaths(Recording& recording, const Paths& of, uint bounce,
-                              std::array<Queue, EYE_QUEUES>& queues) {
+/// All rounds of a sequence of paths: as many as are known to do, or until the device says that no path is left.
+void CameraPaths::recordPaths(Recording& recording, const Paths& of, std::array<Queue, EYE_QUEUES>& queues) {
+    uint round = 0;
     do {
-        for (uint i = 0; i < bouncesAtOnce; i++) recordBounce(recording, of, bounce++);
+        for (const uint end = round + (rounds ? rounds : roundsAtOnce); round < end; round++)
+            recordRound(recording, of, round);
         recording.read(compaction.queues, std::span(queues));
-        recording.submit();
-    } while (queues[QUEUE_CONTINUE].count > 0 && bounce < MAX_BOUNCES);
+        if (rounds == 0) recording.submit();
+    } while (rounds == 0 && queues[QUEUE_CONTINUE].count > 0 && round < MAX_BOUNCES);
 }
 
 /// Pixels give each other what their gather rays brought.
@@ -157,11 +164,12 @@ void CameraPaths::begin(uint index, const PhotonMaps& asked) {
 void CameraPaths::record(Recording& recording, CameraBatch& batch) {
     const uint gatherRays = split ? settings.gatherRays : 0;
     batch.queues.assign(1 + gatherRays, {});
+    recording.clear(progress);
     compaction.start(recording, batch.count);
     recording.run(eye, batch.count,
                   {scene.address, paths, samples, compaction.list, splits, size, settings.size, batch.first,
                    batch.count, pass, settings.seed, settings.showPoints, split.has_value()});
-    followPaths(recording, {batch.first, SAMPLES_EYE, pass}, 0, batch.queues[0]);
+    recordPaths(recording, {batch.first, SAMPLES_EYE, pass}, batch.queues[0]);
     for (uint ray = 0; ray < gatherRays; ray++) {
         const Paths gathering{batch.first, SAMPLES_GATHER, pass * gatherRays + ray};
         compaction.start(recording, batch.count);
@@ -170,9 +178,19 @@ void CameraPaths::record(Recording& recording, CameraBatch& batch) {
                        batch.count, gathering.index, settings.seed, 1 / float(gatherRays)});
         compaction.compact(recording);
         castShadowRays(recording);
-        followPaths(recording, gathering, 1, batch.queues[1 + ray]);
+        recordPaths(recording, gathering, batch.queues[1 + ray]);
     }
     shareGathers(recording, batch);
+    recording.read(progress, 0, batch.progress);
+}
+
+bool CameraPaths::finish(const CameraBatch& batch) {
+    if (batch.progress.unfinished) {
+        rounds = 0; // for once, the host looks when paths end
+        return false;
+    }
+    rounds = std::min(std::max(rounds, batch.progress.rounds + 1 + spareRounds), MAX_BOUNCES);
+    return true;
 }
 
 } // namespace vkpm

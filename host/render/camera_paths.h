@@ -45,6 +45,7 @@ struct CameraBatch {
     uint first; // pixel
     uint count;
     std::vector<std::array<Queue, EYE_QUEUES>> queues{}; // of paths from the eye, then of each gather ray
+    PathRounds progress{};
 
     RayCounts rays() const;
 };
@@ -53,7 +54,7 @@ struct CameraBatch {
 class CameraPaths {
 public:
     CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
-                uint batchSize);
+                uint batchSize, uint rounds = 0);
 
     /// Pixels that one batch may have.
     uint capacity() const { return size; }
@@ -61,9 +62,14 @@ public:
     std::vector<CameraBatch> batches(uint pass) const;
     /// Begins a pass, until whose end `maps` stay as they are.
     void begin(uint pass, const PhotonMaps& maps);
-    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done. Most
-    /// of it is submitted: the host follows paths to their ends.
+    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done: as
+    /// many rounds as paths have needed so far. Before that is known most of it is submitted, and the host looks when
+    /// paths end.
     void record(Recording& recording, CameraBatch& batch);
+    /// Points to a number that is not 0 if paths of the batch that was recorded last did not end.
+    Ptr<uint> unfinished() const { return {progress.address + offsetof(PathRounds, unfinished)}; }
+    /// Whether all paths of a batch, which was submitted, ended; else it is to be recorded again.
+    bool finish(const CameraBatch& batch);
 
     /// Where gather rays of the last range of pixels started, if paths are split.
     const Buffer<Split>& splitPoints() const { return splits; }
@@ -80,8 +86,8 @@ private:
     void castShadowRays(Recording& recording);
     void shareGathers(Recording& recording, const CameraBatch& batch);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
-    void recordBounce(Recording& recording, const Paths& of, uint bounce);
-    void followPaths(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
+    void recordRound(Recording& recording, const Paths& of, uint round);
+    void recordPaths(Recording& recording, const Paths& of, std::array<Queue, EYE_QUEUES>& queues);
 
     Gpu& gpu;
     const UploadedScene& scene;
@@ -93,12 +99,14 @@ private:
     uint pass = 0;
     float pixelAngle = 0;
     PhotonMaps maps;
+    uint rounds; // of trace and shade that a sequence of paths gets, or 0 if nobody knows yet how many it needs
     Compaction compaction;
     Buffer<Path> paths;
     Buffer<Hit> hits;
     Buffer<ShadowRay> shadowRays;
     Buffer<Query> queries;
     Buffer<Split> splits;
+    Buffer<PathRounds> progress;
     Kernel<EyeArgs> eye;
     Kernel<TraceArgs> traceKernel;
     Kernel<ShadeArgs> shade;

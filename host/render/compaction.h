@@ -14,10 +14,11 @@ public:
 
     /// The first queue holds all places of `list` from 0 to count - 1, the others nothing.
     void start(Recording& recording, uint count);
-    /// Records the compaction of the first queue's flags; `list` becomes the new list.
-    void compact(Recording& recording);
+    /// Records the compaction of the first queue's flags, after which `list` is the new list. Paths that go on after a
+    /// `round`, counted from 1, are noted in `progress`. Rounds without paths may be recorded: they cost little.
+    void compact(Recording& recording, uint round = 0, bool isLast = false, Ptr<PathRounds> progress = {});
 
-    Buffer<Queue> queues; // one per kind
+    Buffer<Queue> queues; // one per kind, then that of this kernel
     Buffer<uint> list;    // of paths, queue after queue
     Buffer<uint> flags;   // sums, then by place in the first queue
 
@@ -26,7 +27,6 @@ private:
     Buffer<Queue> nextQueues;
     Buffer<uint> nextList;
     Buffer<uint> nextFlags;
-    uint blocks; // of places, of a full list
     Kernel<CompactArgs> kernel;
 };
 

@@ -147,13 +147,15 @@ void Film::begin(Recording& recording, uint pass) {
     for (const Buffer<float>& block : (begun ? runs.back() : append({pass, pass})).sums) recording.clear(block);
 }
 
-void Film::add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint sampleCount) {
+void Film::add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint sampleCount,
+               Ptr<uint> unfinished) {
     const Run& run = runs.back();
     for (const Part& part : partsOf(first, sampleCount))
         recording.run(film, part.count,
                       {{samples.address + part.inRange * sizeof(float)},
                        run.sums[part.block],
                        status,
+                       unfinished,
                        stride,
                        pixelsOf(part.block),
                        part.inBlock,

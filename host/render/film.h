@@ -30,9 +30,10 @@ public:
 
     /// Records the room for a pass, the one after the last.
     void begin(Recording& recording, uint pass);
-    /// Records taking the pass's samples of pixels first .. first + count - 1; a column of the samples is `stride`
-    /// long.
-    void add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint count);
+    /// Records taking the pass's samples of pixels first .. first + count - 1, unless `unfinished` points to another
+    /// number than 0; a column of the samples is `stride` long.
+    void add(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint count,
+             Ptr<uint> unfinished = {});
     /// Ends the pass; it is never cancelled.
     void end();
 

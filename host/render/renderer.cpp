@@ -47,7 +47,7 @@ std::optional<PhotonMapStage> Renderer::construct(MapKind kind, const Extent& ex
 
 /// What depends on the size of the film. Kernels that the old one has need not be compiled for the new one.
 void Renderer::constructCamera() {
-    CameraPaths paths(gpu, scene, sceneHas, settings, batches.camera);
+    CameraPaths paths(gpu, scene, sceneHas, settings, batches.camera, batches.rounds);
     camera.emplace(std::move(paths));
     if (!tracesLight(sceneHas, settings)) return;
     LightTracing tracing(gpu, scene, sceneHas, settings, flux, batches.photons);
@@ -124,7 +124,7 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
     const auto record = [&](CameraBatch& batch) {
         camera->record(recording, batch);
         if (light) light->recordSums(recording, camera->samples, camera->capacity(), batch.first, batch.count);
-        film.add(recording, camera->samples, camera->capacity(), batch.first, batch.count);
+        film.add(recording, camera->samples, camera->capacity(), batch.first, batch.count, camera->unfinished());
     };
     try {
         for (; submitted < underWay.size(); submitted++) {
@@ -136,6 +136,13 @@ void Renderer::tracePaths(Recording& recording, uint pass) {
         throw;
     }
     recording.wait();
+    for (CameraBatch& batch : underWay)
+        while (!camera->finish(batch)) {
+            CameraBatch again{.first = batch.first, .count = batch.count};
+            record(again);
+            recording.submit();
+            batch = again;
+        }
 }
 
 void Renderer::renderPass(uint pass) {

@@ -10,10 +10,12 @@
 
 namespace vkpm {
 
-/// How many paths are under way at a time; the picture does not depend on it.
+/// How many paths are under way at a time, and rounds that those from the eye get at first, if that is not to be found
+/// out; the picture does not depend on it.
 struct BatchSizes {
     uint photons = 1u << 17;
     uint camera = 1u << 17;
+    uint rounds = 0;
 };
 
 /// What passes made the device and the host do.
