@@ -3,7 +3,10 @@
 #define MATERIAL_GLSL
 #include "bsdf_diffuse.glsl"
 #include "bsdf_glass.glsl"
+#include "bsdf_metal.glsl"
 #include "bsdf_mirror.glsl"
+#include "bsdf_plastic.glsl"
+#include "bsdf_polished.glsl"
 #include "common.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
@@ -11,12 +14,21 @@
 #include "shared_scene.h"
 #include "surface.glsl"
 
-// Whether a scene has materials with a diffuse lobe, and with others.
+// Which lobes the materials of a scene have; layered ones have a diffuse lobe and another.
 const bool hasDiffuse = (materialKinds & DIFFUSE_KINDS) != 0u;
 const bool hasSpecular = (materialKinds & SPECULAR_KINDS) != 0u;
+const bool hasGlossy = (materialKinds & GLOSSY_KINDS) != 0u;
+const bool hasLayered = (materialKinds & LAYERED_KINDS) != 0u;
 
-// Whether a material has a diffuse lobe.
-bool isDiffuse(Material m) { return hasDiffuse && (!hasSpecular || m.kind == MATERIAL_DIFFUSE); }
+bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
+
+// Whether a material has a diffuse lobe, and whether it has another.
+bool isDiffuse(Material m) {
+    if (!hasDiffuse || !hasSpecular) return hasDiffuse;
+    return m.kind == MATERIAL_DIFFUSE || (hasLayered && (LAYERED_KINDS >> m.kind & 1u) != 0u && m.rest != NONE);
+}
+
+bool isSpecular(Material m) { return hasSpecular && (hasLayered ? m.kind != MATERIAL_DIFFUSE : !isDiffuse(m)); }
 
 // Whether a material is of a kind that has other lobes, asked in the order of the list: the last one that a scene has
 // needs no look.
@@ -25,18 +37,102 @@ bool isNextKind(Material m, uint kind) {
     return (kinds & 1u << kind) != 0u && (kinds >> kind == 1u || m.kind == kind);
 }
 
-// One event of a ray of direction d about the normal n, which is on its side.
+// One event of a ray of direction d about the normal n, which is on its side: the choice by u.x, a direction by the
+// others.
 #define X(id, NAME, name, lobes, words)                                                                                \
     if (isNextKind(m, id)) return sample##name(m, d, n, leaving, u);
-Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {
+Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
     MATERIALS(X)
     return sampleDiffuse(m, d, n, leaving, u);
 }
 #undef X
 
-// Specular scattering of a ray of direction d. About the shading normal, unless that would put the ray on the
-// side of the geometric normal where the other kind of event belongs; then about the geometric one.
-Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
+// What a glossy lobe sends from wi to wo, times the cosine of wi; n is the normal on their side.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id)) return evaluate##name(m, n, wo, wi);
+vec3 evaluateGlossy(Material m, vec3 n, vec3 wo, vec3 wi) {
+    GLOSSY_MATERIALS(X)
+    return vec3(0.0);
+}
+#undef X
+
+// The density over solid angle with which a glossy lobe sends wo to wi.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id)) return pdf##name(m, n, wo, wi);
+float pdfGlossy(Material m, vec3 n, vec3 wo, vec3 wi) {
+    GLOSSY_MATERIALS(X)
+    return 0.0;
+}
+#undef X
+
+// What a glossy lobe reflects of the light from a direction, or about as much.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id)) return albedo##name(m, cosine, rest);
+vec3 glossyAlbedo(Material m, float cosine, float rest) {
+    GLOSSY_MATERIALS(X)
+    return vec3(1.0);
+}
+#undef X
+
+// The colour of the diffuse lobe of a layered material.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id)) return base##name(m, rest);
+vec3 diffuseBase(Material m, float rest) {
+    GLOSSY_MATERIALS(X)
+    return m.color;
+}
+#undef X
+
+// The part of light at a cosine that the glossy lobe leaves.
+float restAt(DeviceScene scene, Material m, float cosine) {
+    if (m.rest == NONE) return 0.0;
+    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
+    uint i = min(uint(x), REST_STEPS - 1u), row = m.rest * REST_ROW;
+    return mix(floatPtr(scene.rests).at[row + i], floatPtr(scene.rests).at[row + i + 1u], x - float(i));
+}
+
+float meanRest(DeviceScene scene, Material m) { return floatPtr(scene.rests).at[m.rest * REST_ROW + REST_MEAN]; }
+
+// The diffuse lobe is separable, so that photon maps need no directions: base x rest(out) x rest(in) / (pi mean rest).
+// This is the factor of the direction in which the lobe is seen, with the base; it is also the lobe's albedo there.
+vec3 diffuseAlbedo(DeviceScene scene, Material m, float cosine) {
+    if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return m.color;
+    return diffuseBase(m, meanRest(scene, m)) * restAt(scene, m, cosine);
+}
+
+// And this of the direction from which the light comes; its mean by the cosine law is 1.
+float diffuseArrival(DeviceScene scene, Material m, float cosine) {
+    if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return 1.0;
+    return restAt(scene, m, cosine) / meanRest(scene, m);
+}
+
+// The same of the material of a primitive.
+float diffuseArrivalAt(DeviceScene scene, uint primitive, float cosine) {
+    if (!hasLayered) return 1.0;
+    return diffuseArrival(scene, MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material],
+                          cosine);
+}
+
+// The normal about which light of direction d is scattered, on its side: the shading normal where d is on its side too.
+vec3 scatteringNormal(Surface s, vec3 d) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 shading = leaving ? -s.shading : s.shading;
+    if (hasSmoothNormals && dot(d, shading) < 0.0) return shading;
+    return leaving ? -s.normal : s.normal;
+}
+
+// Probability with which a path at a surface with both lobes takes the glossy one: by what they reflect, and at least a
+// tenth of the paths for each.
+float glossyProbability(DeviceScene scene, Material m, float cosine) {
+    float glossy = maxComponent(glossyAlbedo(m, cosine, restAt(scene, m, cosine)));
+    float diffuse = maxComponent(diffuseAlbedo(scene, m, cosine));
+    return clamp(glossy / max(glossy + diffuse, 1e-30), 0.1, 0.9);
+}
+
+// Scattering of a ray of direction d by the other lobes. About the shading normal, unless that would put the ray on
+// the side of the geometric normal where the other kind of event belongs: then about the geometric one, or, by a
+// glossy lobe, not at all.
+Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
     bool leaving = dot(d, s.normal) > 0.0;
     vec3 geometric = leaving ? -s.normal : s.normal;
     if (!hasSmoothNormals) return scatterAbout(m, d, geometric, leaving, u);
@@ -45,6 +141,10 @@ Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
         Scattering result = scatterAbout(m, d, shading, leaving, u);
         bool reflected = dot(result.direction, shading) > 0.0;
         if (reflected == (dot(result.direction, geometric) > 0.0)) return result;
+        if (hasGlossy && result.pdf > 0.0) {
+            result.weight = vec3(0.0);
+            return result;
+        }
     }
     return scatterAbout(m, d, geometric, leaving, u);
 }
@@ -58,6 +158,23 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
 
 // Specular vertices of a path since its last diffuse one, up to 63, and its flags after one more.
 uint specularRun(uint flags) { return (flags & PATH_SPECULARS) / PATH_SPECULAR; }
+
+// Diffuse vertices of a path from the eye.
+uint diffuseCount(uint flags) {
+    return hasGlossy ? (flags & ~PATH_PDF_MASK) >> PATH_DIFFUSE_SHIFT : flags >> PATH_DIFFUSE_SHIFT;
+}
+
+// A density in the ten bits that flags have for it: an exponent and two digits. Both samplers of a light are weighted
+// by this same number, so that its rounding moves no mean; 0 stands for an event of one direction alone.
+uint packPdf(float pdf) { return pdf > 0.0 ? max(floatBitsToUint(pdf) >> 21, 1u) : 0u; }
+
+float unpackPdf(uint bits) { return uintBitsToFloat(bits << 21); }
+
+uint withPdf(uint flags, float pdf) {
+    return hasGlossy ? (flags & ~PATH_PDF_MASK) | packPdf(pdf) << PATH_PDF_SHIFT : flags;
+}
+
+float pdfOf(uint flags) { return hasGlossy ? unpackPdf(flags >> PATH_PDF_SHIFT) : 0.0; }
 
 uint afterSpecular(uint flags) { return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR; }
 

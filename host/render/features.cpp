@@ -22,8 +22,9 @@ void askFor(uint layers, Features& features) {
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
-    return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS) &&
-           (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+    const bool byGloss = settings.integrator == INTEGRATOR_PATH && hasMaterials(f, GLOSSY_KINDS) && f.hasCausticLayer;
+    return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS | GLOSSY_KINDS) &&
+           (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer || byGloss);
 }
 
 bool tracesLight(const Features& f, const Settings& settings) {

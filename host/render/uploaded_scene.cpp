@@ -21,7 +21,8 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       primitives(uploaded(gpu, "scene primitives", scene.primitives)),
       normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))),
-      lights(uploaded(gpu, "scene lights", scene.lights)), lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)),
+      rests(uploaded(gpu, "scene rests", scene.rests)), lights(uploaded(gpu, "scene lights", scene.lights)),
+      lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)),
       directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
       targets(uploaded(gpu, "scene targets", scene.targets)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
@@ -34,6 +35,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .lightCdf = lightCdf,
               .directCdf = directCdf,
               .targets = targets,
+              .rests = rests,
               .missing = missing,
               .lit = scene.lit,
               .near = scene.near,

@@ -33,6 +33,7 @@ private:
     Buffer<Primitive> primitives;
     Buffer<Normals> normals;
     Buffer<Material> materials;
+    Buffer<float> rests;
     Buffer<Light> lights;
     Buffer<float> lightCdf;
     Buffer<float> directCdf;

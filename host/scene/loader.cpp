@@ -78,7 +78,7 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
     std::map<std::string, uint> indices;
     for (const std::string& name : reader.keys()) {
         indices[name] = static_cast<uint>(scene.materials.size());
-        scene.materials.push_back(readMaterial(reader.at(name)));
+        scene.materials.push_back(readMaterial(reader.at(name), scene.rests));
     }
     return indices;
 }

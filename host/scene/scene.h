@@ -37,6 +37,7 @@ struct Scene {
     std::vector<Primitive> primitives; // triangles, then spheres
     std::vector<Normals> normals;
     std::vector<Material> materials;
+    std::vector<float> rests; // see DeviceScene
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;

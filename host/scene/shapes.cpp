@@ -111,7 +111,7 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
 
     surface.material = readMaterial(shape, emission.has_value());
     if (isSpecular(surface) && surface.radiance != vec3{0})
-        emission->fail("found emission on a mirror or glass", "only diffuse shapes may emit");
+        emission->fail("found emission on a material that is not diffuse", "only diffuse shapes may emit");
     return surface;
 }
 
