@@ -1,5 +1,6 @@
 /// How error falls with passes: as 1 / sqrt(n) where light is path or light traced, as the cube root where it is
 /// gathered in shrinking discs (Knaus & Zwicker 2011), and not below the bias of discs that stay.
+#include "draw.h"
 #include "lamp_in_mirror.h"
 #include "output/exr.h"
 #include "render_support.h"
@@ -69,6 +70,7 @@ void expectPathTraced(double slope) {
 // ---- A closed form: a lamp seen by a floor in a mirror -----------------------------------------
 
 TEST(Convergence, OfALampInAMirror) {
+    SKIP_UNLESS_DRAWN(1);
     const Scene scene = loadJson(lampInMirror());
     Settings settings = scene.settings;
     settings.photons = 0;
@@ -102,6 +104,7 @@ TEST(Convergence, OfALampInAMirror) {
 // vkpm --scene scenes/box.json --size 48x48 --passes 1024 --photons 1e5 --caustic-photons 1e5 --seed 4711
 
 TEST(Convergence, OfTheBox) {
+    SKIP_UNLESS_DRAWN(0);
     const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "box_reference.exr");
     const Scene scene = shippedScene("box");
     Settings settings = scene.settings;

@@ -1,5 +1,6 @@
 /// Whether renders know how wrong they are: intervals of pixels and the error of pictures against closed forms and a
 /// long render.
+#include "draw.h"
 #include "lamp_in_mirror.h"
 #include "output/exr.h"
 #include "render/error_estimate.h"
@@ -67,6 +68,7 @@ void expectTrue(const char* name, const Scene& scene, Settings settings, uint pa
 }
 
 TEST(Estimate, IsTrueOfTheBox) {
+    SKIP_UNLESS_DRAWN(0);
     const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "box_reference.exr");
     const Scene scene = shippedScene("box");
     Settings settings = scene.settings;
@@ -115,6 +117,7 @@ TEST(Estimate, CausticsAreThoseOfLightTracing) {
 }
 
 TEST(Estimate, IsTrueOfALampInAMirror) {
+    SKIP_UNLESS_DRAWN(1);
     const Scene scene = loadJson(lampInMirror());
     Settings settings = scene.settings;
     settings.size = {24, 24};
@@ -129,6 +132,7 @@ TEST(Estimate, IsTrueOfALampInAMirror) {
 
 // Discs of a fixed width: what is left of the error after many passes is bias, and estimated as that.
 TEST(Estimate, OfBiasIsTheBlurOfFixedDiscs) {
+    SKIP_UNLESS_DRAWN(1);
     const Scene scene = loadJson(lampInMirror());
     Settings settings = scene.settings;
     settings.layers = 1u << LAYER_CAUSTIC | 1u << ASK_NOISE | 1u << ASK_BIAS;

@@ -304,7 +304,7 @@ TEST(Features, RandomScenesRenderTheSameBits) {
     for (uint seed = 0; seed < 240; seed++) scenes.push_back(randomScene(seed));
     const std::size_t cover = coverFirst(scenes);
     std::shuffle(scenes.begin() + std::ptrdiff_t(cover), scenes.end(), std::mt19937(drawSeed()));
-    if (!isNightly()) scenes.resize(std::min(cover + 8, scenes.size()));
+    if (!isNightly()) scenes.resize(std::min(cover + 2, scenes.size()));
     uint lit = 0;
     for (const RandomScene& scene : scenes)
         lit += expectSameBits(loadJson(scene.text), scene.settings,

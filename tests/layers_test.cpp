@@ -78,11 +78,21 @@ void expectAgreement(const Case& c) {
     }
 }
 
-TEST(Layers, BoxAgreesWithThePathTracer) { expectAgreement({"box", 0.006f, 0.01f, 64, 16, 0.003}); }
-TEST(Layers, DiffuseBoxAgreesWithThePathTracer) { expectAgreement({"diffuse_box", 0.006f, 0.01f, 64, 16, 0.003}); }
-TEST(Layers, RingAgreesWithThePathTracer) { expectAgreement({"ring", 0.015f, 0.015f, 64, 16, 0.003}); }
+TEST(Layers, BoxAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
+    expectAgreement({"box", 0.006f, 0.01f, 64, 16, 0.003});
+}
+TEST(Layers, DiffuseBoxAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(1);
+    expectAgreement({"diffuse_box", 0.006f, 0.01f, 64, 16, 0.003});
+}
+TEST(Layers, RingAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
+    expectAgreement({"ring", 0.015f, 0.015f, 64, 16, 0.003});
+}
 TEST(Layers, PoolAgreesWithThePathTracer) {
     if (!isThorough()) GTEST_SKIP() << "takes as long as the other scenes together: tools/test --all";
+    SKIP_UNLESS_DRAWN(1);
     expectAgreement({"pool", 0.015f, 0.015f, 64, 16, 0.003, 0.12, 2});
 }
 

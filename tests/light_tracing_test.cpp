@@ -1,4 +1,5 @@
 /// Light tracing against the path tracer, which finds the same paths from the other end.
+#include "draw.h"
 #include "render_support.h"
 #include "shared_scene.h"
 #include <gtest/gtest.h>
@@ -68,9 +69,18 @@ void expectAgreement(const char* name, const Scene& scene, uint pathPasses, uint
     EXPECT_GT(a.mean, 15 * a.error);
 }
 
-TEST(LightTracing, BoxAgreesWithThePathTracer) { expectAgreement("box", shippedScene("box"), 128, 8); }
-TEST(LightTracing, RingAgreesWithThePathTracer) { expectAgreement("ring", shippedScene("ring"), 128, 8); }
-TEST(LightTracing, PoolAgreesWithThePathTracer) { expectAgreement("pool", shippedScene("pool"), 128, 8); }
+TEST(LightTracing, BoxAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
+    expectAgreement("box", shippedScene("box"), 128, 8);
+}
+TEST(LightTracing, RingAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(1);
+    expectAgreement("ring", shippedScene("ring"), 128, 8);
+}
+TEST(LightTracing, PoolAgreesWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
+    expectAgreement("pool", shippedScene("pool"), 128, 8);
+}
 
 const char* const octahedron = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
                                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
@@ -111,6 +121,7 @@ json stillLife() {
 }
 
 TEST(LightTracing, SmoothAndHiddenSurfacesAgreeWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(1);
     expectAgreement("still life", loadJson(stillLife()), 128, 8);
 }
 

@@ -1,5 +1,6 @@
 /// Coarse meshes with smooth normals against what they stand for: the light of a sphere, without stairs, for light
 /// samples and photons alike, and furnaces that lose none.
+#include "draw.h"
 #include "render_support.h"
 #include "shared_layers.h"
 #include <filesystem>
@@ -108,6 +109,7 @@ TEST(Terminator, LightSamplesSeeTheSphere) {
 }
 
 TEST(Terminator, PhotonsSeeTheSphere) {
+    SKIP_UNLESS_DRAWN(0);
     for (const int splits : {0, 1, 3}) {
         const Scene scene = underSun(splits);
         Settings settings{.size = {64, 64}, .photons = 1'000'000, .integrator = INTEGRATOR_PHOTON_MAP};
@@ -149,7 +151,10 @@ void expectFurnace(uint integrator, double tolerance) {
 }
 
 TEST(Terminator, FurnaceOfThePathTracer) { expectFurnace(INTEGRATOR_PATH, 0.006); }
-TEST(Terminator, FurnaceOfPhotons) { expectFurnace(INTEGRATOR_PHOTON, 0.02); }
+TEST(Terminator, FurnaceOfPhotons) {
+    SKIP_UNLESS_DRAWN(1);
+    expectFurnace(INTEGRATOR_PHOTON, 0.02);
+}
 
 // In a room under a wide lamp, with a glass ball above: the same paths from either end.
 TEST(Terminator, LayersAgreeWithThePathTracer) {
