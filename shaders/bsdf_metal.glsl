@@ -12,12 +12,12 @@ Scattering sampleMetal(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
     return Scattering(wi, weight * schlick(m.color, -dot(d, h)), n, 1.0, ggxPdf(m.alpha, n, -d, wi));
 }
 
-vec3 evaluateMetal(Material m, vec3 n, vec3 wo, vec3 wi) {
+vec3 evaluateMetal(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     return ggxDensity(m.alpha, n, h) * ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)) * schlick(m.color, dot(wo, h));
 }
 
-float pdfMetal(Material m, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }
+float pdfMetal(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }
 
 // Of all light from a direction, what the facets reflect at once; `rest` is the part that is not, were they perfect.
 vec3 albedoMetal(Material m, float cosine, float rest) { return (1.0 - rest) * schlick(m.color, cosine); }

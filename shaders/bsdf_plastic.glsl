@@ -19,12 +19,12 @@ Scattering samplePlastic(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
     return Scattering(wi, weight * schlick(coat(m), -dot(d, h)), n, 1.0, ggxPdf(m.alpha, n, -d, wi));
 }
 
-vec3 evaluatePlastic(Material m, vec3 n, vec3 wo, vec3 wi) {
+vec3 evaluatePlastic(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     return ggxDensity(m.alpha, n, h) * ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)) * schlick(coat(m), dot(wo, h));
 }
 
-float pdfPlastic(Material m, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }
+float pdfPlastic(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }
 
 // What the coat reflects; `rest` is what it leaves.
 vec3 albedoPlastic(Material m, float cosine, float rest) { return vec3(1.0 - rest); }

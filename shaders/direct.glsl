@@ -48,7 +48,8 @@ float lobeSampleWeight(float inversePdf, float pdf) {
 // That of a glossy lobe about n, in place of the cosine law.
 ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material material, vec3 n, vec3 wo, vec3 weight,
                              uint column, vec2 choice, vec2 place) {
-    vec3 normal = dot(wo, surface.normal) < 0.0 ? -surface.normal : surface.normal;
+    bool leaving = dot(wo, surface.normal) < 0.0;
+    vec3 normal = leaving ? -surface.normal : surface.normal;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     uint chosen = chooseLight(scene, scene.directCdf, choice.x);
     Light light = LightPtr(scene.lights).at[chosen];
@@ -58,9 +59,9 @@ ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material materi
     float inversePdf = seen.inversePdf / lightProbability(scene.directCdf, chosen);
     vec3 radiance = vec3(0.0);
     if (dot(w, normal) > 0.0 && dot(w, n) > 0.0 && dot(wo, n) > 0.0) {
-        float pdf = unpackPdf(packPdf(pdfGlossy(material, n, wo, w)));
-        radiance = emittedRadiance(light, seen.point.normal, -w) * evaluateGlossy(material, n, wo, w) * weight *
-                   (inversePdf * lightSampleWeight(inversePdf, pdf));
+        float pdf = unpackPdf(packPdf(pdfGlossy(material, leaving, n, wo, w)));
+        radiance = emittedRadiance(light, seen.point.normal, -w) * evaluateGlossy(material, leaving, n, wo, w) *
+                   weight * (inversePdf * lightSampleWeight(inversePdf, pdf));
     }
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
     return ShadowRay(origin, surface.primitive, offsetPoint(seen.point.position, seen.point.magnitude, lightSide),

@@ -63,4 +63,19 @@ vec3 sampleGgx(float alpha, vec3 n, vec3 wo, vec2 u, out float weight, out vec3 
     return wi;
 }
 
+// A facet's normal in proportion to what wo sees of it alone.
+vec3 sampleVisibleFacet(float alpha, vec3 n, vec3 wo, vec2 u) {
+    float z = min(1.0, dot(wo, n)), stretch = stretched(alpha, z);
+    float height = u.y * (1.0 + z / stretch);
+    vec3 cap = vec3(sqrt(max(0.0, height * (2.0 - height))) * unitCircle(u.x), 1.0 - height);
+    vec3 facet = mix(z * n, wo, alpha) / stretch + toWorld(cap, n);
+    return normalize(mix(dot(facet, n) * n, facet, alpha));
+}
+
+// Correlated G2 over G1 of wo, by the cosines of both directions, whatever their sides.
+float maskingOfOther(float alpha, float zo, float zi) {
+    float stretch = stretched(alpha, zo);
+    return zi * (zo + stretch) / (zi * stretch + zo * stretched(alpha, zi));
+}
+
 #endif

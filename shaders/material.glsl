@@ -7,18 +7,14 @@
 #include "bsdf_mirror.glsl"
 #include "bsdf_plastic.glsl"
 #include "bsdf_polished.glsl"
+#include "bsdf_rough_glass.glsl"
 #include "common.glsl"
+#include "lobes.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"
-
-// Which lobes the materials of a scene have; layered ones have a diffuse lobe and another.
-const bool hasDiffuse = (materialKinds & DIFFUSE_KINDS) != 0u;
-const bool hasSpecular = (materialKinds & SPECULAR_KINDS) != 0u;
-const bool hasGlossy = (materialKinds & GLOSSY_KINDS) != 0u;
-const bool hasLayered = (materialKinds & LAYERED_KINDS) != 0u;
 
 bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
 
@@ -49,8 +45,8 @@ Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
 
 // What a glossy lobe sends from wi to wo, times the cosine of wi; n is the normal on their side.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return evaluate##name(m, n, wo, wi);
-vec3 evaluateGlossy(Material m, vec3 n, vec3 wo, vec3 wi) {
+    if (isNextKind(m, id)) return evaluate##name(m, leaving, n, wo, wi);
+vec3 evaluateGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     GLOSSY_MATERIALS(X)
     return vec3(0.0);
 }
@@ -58,8 +54,8 @@ vec3 evaluateGlossy(Material m, vec3 n, vec3 wo, vec3 wi) {
 
 // The density over solid angle with which a glossy lobe sends wo to wi.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return pdf##name(m, n, wo, wi);
-float pdfGlossy(Material m, vec3 n, vec3 wo, vec3 wi) {
+    if (isNextKind(m, id)) return pdf##name(m, leaving, n, wo, wi);
+float pdfGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     GLOSSY_MATERIALS(X)
     return 0.0;
 }

@@ -22,7 +22,8 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 // Those with a glossy lobe, which light samples meet too.
 #define GLOSSY_MATERIALS(X)                                                                                            \
     X(4, METAL, Metal, LOBE_GLOSSY | LOBE_DIFFUSE, "rough metal")                                                      \
-    X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")
+    X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")                                                      \
+    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")
 
 // id, constant, name of functions, in words
 #define LIGHTS(X)                                                                                                      \
@@ -47,6 +48,7 @@ const uint GLOSSY_KINDS = 0u MATERIALS(X);
 #define X(id, NAME, name, lobes, words) | (((lobes) & (LOBE_DELTA | LOBE_GLOSSY)) != 0u ? 1u << id : 0u)
 const uint SPECULAR_KINDS = 0u MATERIALS(X); // S or G
 #undef X
+const uint GLASS_KINDS = 1u << MATERIAL_GLASS | 1u << MATERIAL_ROUGH_GLASS;
 const uint LAYERED_KINDS = DIFFUSE_KINDS & SPECULAR_KINDS;
 
 #define X(id, NAME, name, words) | 1u << id

@@ -119,10 +119,11 @@ struct DeviceScene {
     ADDRESS(float) lightCdf;  // of photons: upper ends, the last is 1
     ADDRESS(float) directCdf; // of light samples, likewise
     ADDRESS(Target) targets;
-    ADDRESS(float) rests;  // rows of REST_ROW numbers
-    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;            // about all that light falls upon
-    Target near;           // about all but far lights
+    ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
+    ADDRESS(float) rests;         // rows of REST_ROW numbers
+    ADDRESS(uint) missing;        // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit;                   // about all that light falls upon
+    Target near;                  // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;

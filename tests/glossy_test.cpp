@@ -111,6 +111,24 @@ TEST(Glossy, SamplesFollowTheirDensity) {
         }
 }
 
+// Into glass of index 1.5 and out of it: reflected and refracted flux together, from an independent quadrature.
+TEST(Glossy, RoughGlassLosesWhatFacetsScatterTwice) {
+    const struct {
+        double ior, alpha, cosine, whole;
+    } known[]{{1.5, 0.1, 1, 0.9989}, {1.5, 0.5, 0.5, 0.8926}, {1.5, 1, 0.1, 0.7409}, {1 / 1.5, 0.1, 0.5, 0.9634},
+              {1 / 1.5, 0.5, 1, 0.7539}, {1 / 1.5, 1, 0.5, 0.5128}};
+    for (const auto& [ior, alpha, cosine, whole] : known) {
+        const Material glass{MATERIAL_ROUGH_GLASS, vec3{1}, float(ior), 0, float(alpha), NONE};
+        Random random(12);
+        std::vector<GlossyCase> xs;
+        for (int i = 0; i < 1 << 18; i++)
+            xs.push_back({glass, direction(cosine, 0.2), {0, 0, 1}, random.unit2(), random.unit()});
+        Mean mean;
+        for (const GlossyValues& y : map<GlossyValues>("glossy", xs)) mean.add(y.weight.x);
+        EXPECT_NEAR(mean.mean(), whole, 5 * mean.error() + 2e-4) << ior << " " << alpha << " " << cosine;
+    }
+}
+
 TEST(Glossy, ValuesAreReciprocal) {
     Random random(9);
     std::vector<GlossyCase> forth, back;

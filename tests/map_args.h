@@ -106,6 +106,7 @@ struct GlossyCase {
     vec3 wo;
     vec3 wi;
     vec2 u;
+    float choice;
 };
 
 struct GlossyValues {

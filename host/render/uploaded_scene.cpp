@@ -25,6 +25,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       lightCdf(uploaded(gpu, "scene light cdf", scene.lightCdf)),
       directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
       targets(uploaded(gpu, "scene targets", scene.targets)),
+      targetWeights(uploaded(gpu, "scene target weights", scene.targetWeights)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
@@ -35,6 +36,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .lightCdf = lightCdf,
               .directCdf = directCdf,
               .targets = targets,
+              .targetWeights = targetWeights,
               .rests = rests,
               .missing = missing,
               .lit = scene.lit,

@@ -38,6 +38,7 @@ private:
     Buffer<float> lightCdf;
     Buffer<float> directCdf;
     Buffer<Target> targets;
+    Buffer<float> targetWeights;
     Buffer<uint> missing;
 };
 

@@ -1,7 +1,8 @@
 /// Materials of a scene file.
 #include "scene/materials.h"
 #include "scene/rest.h"
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
@@ -27,12 +28,6 @@ Material readMirror(Reader& reader, std::vector<float>&) {
     return {MATERIAL_MIRROR, reader.at("reflectance").color(fraction), 1};
 }
 
-Material readGlass(Reader& reader, std::vector<float>&) {
-    Material material{MATERIAL_GLASS, vec3{1}, readIor(reader)};
-    if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
-    return material;
-}
-
 /// Widths of lobes below this are those of a mirror: in 32-bit floats, nothing is left of the density of facets.
 constexpr float smooth = 1e-3f;
 
@@ -49,6 +44,16 @@ uint rowOf(std::vector<float>& rests, float alpha, double normalIncidence) {
         if (std::equal(row.begin(), row.end(), rests.begin() + std::ptrdiff_t(i))) return uint(i / REST_ROW);
     rests.insert(rests.end(), row.begin(), row.end());
     return uint(rests.size() / REST_ROW) - 1;
+}
+
+/// Glass without a difference of indices has no rough surface either.
+Material readGlass(Reader& reader, std::vector<float>&) {
+    Material material{MATERIAL_GLASS, vec3{1}, readIor(reader)};
+    if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
+    material.alpha = readAlpha(reader, 0);
+    material.rest = NONE;
+    if (material.alpha >= smooth && std::abs(material.ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
+    return material;
 }
 
 struct Metal {
