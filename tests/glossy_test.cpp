@@ -3,6 +3,7 @@
 #include "map.h"
 #include "scene/rest.h"
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace vkpm {
 namespace {
@@ -89,7 +90,6 @@ TEST(Glossy, SamplesFollowTheirDensity) {
                 whole += part;
                 k++;
             }
-            EXPECT_NEAR(whole, 1, 0.01) << alpha << " " << cosine;
             const uint count = 1u << 18;
             for (const vec2 u : unitSquare(count, 3))
                 xs.push_back({metal(alpha), direction(cosine, 0.1), {0, 0, 1}, u});
@@ -99,6 +99,9 @@ TEST(Glossy, SamplesFollowTheirDensity) {
                           j = std::min(int(turn(y.direction.x, y.direction.y) * columns), columns - 1);
                 counts[std::size_t(i * columns + j)]++;
             }
+            // Few samples go below the horizon, where nothing is evaluated.
+            EXPECT_NEAR(whole, std::accumulate(counts.begin(), counts.end(), 0.0) / count, 0.01)
+                << alpha << " " << cosine;
             double sum = 0, freedom = 0;
             for (std::size_t k = 0; k < counts.size(); k++) {
                 const double e = expected[k] * count;
@@ -115,8 +118,8 @@ TEST(Glossy, SamplesFollowTheirDensity) {
 TEST(Glossy, RoughGlassLosesWhatFacetsScatterTwice) {
     const struct {
         double ior, alpha, cosine, whole;
-    } known[]{{1.5, 0.1, 1, 0.9989}, {1.5, 0.5, 0.5, 0.8926}, {1.5, 1, 0.1, 0.7409}, {1 / 1.5, 0.1, 0.5, 0.9634},
-              {1 / 1.5, 0.5, 1, 0.7539}, {1 / 1.5, 1, 0.5, 0.5128}};
+    } known[]{{1.5, 0.1, 1, 0.9989},       {1.5, 0.5, 0.5, 0.8926},   {1.5, 1, 0.1, 0.7409},
+              {1 / 1.5, 0.1, 0.5, 0.9634}, {1 / 1.5, 0.5, 1, 0.7539}, {1 / 1.5, 1, 0.5, 0.5128}};
     for (const auto& [ior, alpha, cosine, whole] : known) {
         const Material glass{MATERIAL_ROUGH_GLASS, vec3{1}, float(ior), 0, float(alpha), NONE};
         Random random(12);
