@@ -4,6 +4,6 @@
 #include "scattering.glsl"
 #include "shared_scene.h"
 
-Scattering sampleMirror(Material m, vec3 d, vec3 n, bool leaving, vec3 u) { return reflectAbout(d, n, m.color); }
+Scattering sampleMirror(Material m, vec3 d, vec3 n, bool leaving, float u) { return reflectAbout(d, n, m.color); }
 
 #endif

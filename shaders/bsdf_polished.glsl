@@ -5,7 +5,7 @@
 #include "scattering.glsl"
 #include "shared_scene.h"
 
-Scattering samplePolished(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
+Scattering samplePolished(Material m, vec3 d, vec3 n, bool leaving, float u) {
     return reflectAbout(d, n, schlick(m.color, -dot(d, n)));
 }
 

@@ -26,26 +26,34 @@ bool isDiffuse(Material m) {
 
 bool isSpecular(Material m) { return hasSpecular && (hasLayered ? m.kind != MATERIAL_DIFFUSE : !isDiffuse(m)); }
 
-// Whether a material is of a kind that has other lobes, asked in the order of the list: the last one that a scene has
-// needs no look.
-bool isNextKind(Material m, uint kind) {
-    const uint kinds = materialKinds & SPECULAR_KINDS;
+// Whether a material is of a kind, of some of which it is one, asked in the order of the list: the last one that a
+// scene has needs no look.
+bool isNextKind(Material m, uint kind, uint of) {
+    uint kinds = materialKinds & of;
     return (kinds & 1u << kind) != 0u && (kinds >> kind == 1u || m.kind == kind);
 }
 
-// One event of a ray of direction d about the normal n, which is on its side: the choice by u.x, a direction by the
-// others.
+// One event of a ray of direction d about the normal n, which is on its side, in one direction, by the choice u.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return sample##name(m, d, n, leaving, u);
-Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
-    MATERIALS(X)
+    if (isNextKind(m, id, DELTA_KINDS)) return sample##name(m, d, n, leaving, u);
+Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {
+    DELTA_MATERIALS(X)
     return sampleDiffuse(m, d, n, leaving, u);
+}
+#undef X
+
+// The same by a glossy lobe: the choice by u.x, a direction by the others.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return sample##name(m, d, n, leaving, u);
+Scattering sampleGlossy(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
+    GLOSSY_MATERIALS(X)
+    return sampleDiffuse(m, d, n, leaving, u.x);
 }
 #undef X
 
 // What a glossy lobe sends from wi to wo, times the cosine of wi; n is the normal on their side.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return evaluate##name(m, leaving, n, wo, wi);
+    if (isNextKind(m, id, GLOSSY_KINDS)) return evaluate##name(m, leaving, n, wo, wi);
 vec3 evaluateGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     GLOSSY_MATERIALS(X)
     return vec3(0.0);
@@ -54,7 +62,7 @@ vec3 evaluateGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
 
 // The density over solid angle with which a glossy lobe sends wo to wi.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return pdf##name(m, leaving, n, wo, wi);
+    if (isNextKind(m, id, GLOSSY_KINDS)) return pdf##name(m, leaving, n, wo, wi);
 float pdfGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     GLOSSY_MATERIALS(X)
     return 0.0;
@@ -63,7 +71,7 @@ float pdfGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
 
 // What a glossy lobe reflects of the light from a direction, or about as much.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return albedo##name(m, cosine, rest);
+    if (isNextKind(m, id, GLOSSY_KINDS)) return albedo##name(m, cosine, rest);
 vec3 glossyAlbedo(Material m, float cosine, float rest) {
     GLOSSY_MATERIALS(X)
     return vec3(1.0);
@@ -72,7 +80,7 @@ vec3 glossyAlbedo(Material m, float cosine, float rest) {
 
 // The colour of the diffuse lobe of a layered material.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return base##name(m, rest);
+    if (isNextKind(m, id, GLOSSY_KINDS)) return base##name(m, rest);
 vec3 diffuseBase(Material m, float rest) {
     GLOSSY_MATERIALS(X)
     return m.color;
@@ -125,10 +133,20 @@ float glossyProbability(DeviceScene scene, Material m, float cosine) {
     return clamp(glossy / max(glossy + diffuse, 1e-30), 0.1, 0.9);
 }
 
-// Scattering of a ray of direction d by the other lobes. About the shading normal, unless that would put the ray on
-// the side of the geometric normal where the other kind of event belongs: then about the geometric one, or, by a
-// glossy lobe, not at all.
-Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
+// Scattering of a ray of direction d by a glossy lobe; what comes out on the other side of the geometric normal than of
+// the shading normal is lost.
+Scattering scatterGlossy(Material m, Surface s, vec3 d, vec3 u) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 n = scatteringNormal(s, d);
+    Scattering event = sampleGlossy(m, d, n, leaving, u);
+    if (hasSmoothNormals && dot(event.direction, n) > 0.0 != dot(event.direction, leaving ? -s.normal : s.normal) > 0.0)
+        event.weight = vec3(0.0);
+    return event;
+}
+
+// Scattering of a ray of direction d in one direction. About the shading normal, unless that would put the ray on the
+// side of the geometric normal where the other kind of event belongs; then about the geometric one.
+Scattering scatterDelta(Material m, Surface s, vec3 d, float u) {
     bool leaving = dot(d, s.normal) > 0.0;
     vec3 geometric = leaving ? -s.normal : s.normal;
     if (!hasSmoothNormals) return scatterAbout(m, d, geometric, leaving, u);
@@ -137,12 +155,14 @@ Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
         Scattering result = scatterAbout(m, d, shading, leaving, u);
         bool reflected = dot(result.direction, shading) > 0.0;
         if (reflected == (dot(result.direction, geometric) > 0.0)) return result;
-        if (hasGlossy && result.pdf > 0.0) {
-            result.weight = vec3(0.0);
-            return result;
-        }
     }
     return scatterAbout(m, d, geometric, leaving, u);
+}
+
+// Scattering by any lobe but the diffuse one.
+Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
+    if (isGlossy(m)) return scatterGlossy(m, s, d, u);
+    return scatterDelta(m, s, d, u.x);
 }
 
 // What a photon's flux is multiplied by since shading normals are not the geometric ones (Veach 1997, eq. 5.19);

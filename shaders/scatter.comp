@@ -120,7 +120,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     float u = sample2(s, 4u * bounce + 5u).x;
     vec2 place = sample2(s, 4u * bounce + 6u);
     if (u < glossy) {
-        Scattering event = scatterSpecular(material, surface, path.direction, vec3(0.0, place));
+        Scattering event = scatterGlossy(material, surface, path.direction, vec3(0.0, place));
         float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
         path =
             Path(leave(surface, event.direction), event.direction, path.throughput * event.weight * correction / glossy,

@@ -14,10 +14,14 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 // id, constant, name of functions, lobes that it may have, in words
 #define MATERIALS(X)                                                                                                   \
     X(0, DIFFUSE, Diffuse, LOBE_DIFFUSE, "diffuse surfaces") /* Lambert, both sides */                                 \
-    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")              /* perfect, both sides */                                 \
-    X(2, GLASS, Glass, LOBE_DELTA, "glass")                  /* smooth, its inside against the normal */               \
-    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal")   /* a mirror by Schlick, both sides */                     \
+    DELTA_MATERIALS(X)                                                                                                 \
     GLOSSY_MATERIALS(X)
+
+// Those that send light in one direction.
+#define DELTA_MATERIALS(X)                                                                                             \
+    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")            /* perfect, both sides */                                   \
+    X(2, GLASS, Glass, LOBE_DELTA, "glass")                /* smooth, its inside against the normal */                 \
+    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal") /* a mirror by Schlick, both sides */
 
 // Those with a glossy lobe, which light samples meet too.
 #define GLOSSY_MATERIALS(X)                                                                                            \
@@ -45,9 +49,10 @@ const uint DIFFUSE_KINDS = 0u MATERIALS(X);
 #define X(id, NAME, name, lobes, words) | (((lobes)&LOBE_GLOSSY) != 0u ? 1u << id : 0u)
 const uint GLOSSY_KINDS = 0u MATERIALS(X);
 #undef X
-#define X(id, NAME, name, lobes, words) | (((lobes) & (LOBE_DELTA | LOBE_GLOSSY)) != 0u ? 1u << id : 0u)
-const uint SPECULAR_KINDS = 0u MATERIALS(X); // S or G
+#define X(id, NAME, name, lobes, words) | (((lobes)&LOBE_DELTA) != 0u ? 1u << id : 0u)
+const uint DELTA_KINDS = 0u MATERIALS(X);
 #undef X
+const uint SPECULAR_KINDS = DELTA_KINDS | GLOSSY_KINDS;
 const uint GLASS_KINDS = 1u << MATERIAL_GLASS | 1u << MATERIAL_ROUGH_GLASS;
 const uint LAYERED_KINDS = DIFFUSE_KINDS & SPECULAR_KINDS;
 

@@ -6,7 +6,7 @@
 
 GlossyValues glossy(GlossyCase x) {
     const vec3 n = vec3(0.0, 0.0, 1.0);
-    Scattering s = scatterAbout(x.material, -x.wo, n, false, vec3(x.choice, x.u));
+    Scattering s = sampleGlossy(x.material, -x.wo, n, false, vec3(x.choice, x.u));
     return GlossyValues(s.direction, s.weight, s.pdf, evaluateGlossy(x.material, false, n, x.wo, x.wi),
                         pdfGlossy(x.material, false, n, x.wo, x.wi));
 }
