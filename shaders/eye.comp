@@ -22,6 +22,6 @@ void main() {
     args.list.at[slot] = slot;
     if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
 
-    [[dont_unroll]] for (uint column = 0u; column < SAMPLE_COLUMNS; column++)
+    [[dont_unroll]] for (uint column = 0u; column < CAMERA_COLUMNS; column++)
         args.samples.at[column * args.stride + slot] = 0.0;
 }

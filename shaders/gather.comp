@@ -32,7 +32,7 @@ void main() {
     vec3 inner;
     vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
     if (hasBias)
-        addToColumns(args.samples, args.stride, COLUMN_BIAS, slot,
-                     2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
+        addToColumns(args.samples, args.stride, query.column == COLUMN_GATHERED ? COLUMN_GATHERED_BIAS : COLUMN_BIAS,
+                     slot, 2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
     addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
 }

@@ -42,6 +42,12 @@ vec2 bounceSample(BounceSampler s, uint pair) { return sample2(s.path, 4u * s.bo
 // The layer of a path, by the name it has if no specular surface stands before the first diffuse one.
 uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : layer; }
 
+// Where light of a layer that a path finds is added.
+uint columnOf(Path path, uint layer) {
+    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u;
+    return gathering ? COLUMN_GATHERED : layerColumn(layer);
+}
+
 // What a path does at the surface that it hits.
 struct Vertex {
     uint queues;         // that it goes to, one bit each
@@ -74,7 +80,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (!hasLayer(layer)) return;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
-                                    layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
@@ -83,7 +89,7 @@ void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface,
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
-    vertex.query = Query(surface.position, normal, weight, layerColumn(layer), footprint);
+    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint);
     vertex.queues |= 1u << queue;
 }
 
@@ -92,7 +98,7 @@ void storeSplit(inout Vertex vertex, Path path, Surface surface, vec3 normal, ve
     if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
     vertex.split = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight,
-                         surface.primitive, flags, bulge);
+                         surface.primitive, flags, bulge, path.distanceSinceDiffuse * args.pixelAngle);
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.

@@ -33,10 +33,11 @@ struct Split {
     vec3 origin;
     vec3 normal; // geometric, on the side of the viewer
     vec3 shading;
-    vec3 throughput; // of all gather rays together, the albedo included
+    vec3 throughput; // of what all gather rays bring together, the albedo included
     uint from;       // primitive that the rays leave
     uint flags;      // as in Path; NONE: there is no such point
     float bulge;     // on the side of the normal, see terminator.glsl
+    float footprint; // width of a pixel there
 };
 BUFFER(Split)
 
@@ -100,6 +101,21 @@ struct ShadowArgs {
     PTR(Queue) queue;
     PTR(uint) list;
     uint stride;
+};
+
+const uint SHARING_BAND = 32u; // rows of pixels that share what their gather rays bring
+
+struct ShareGathersArgs {
+    PTR(DeviceScene) scene;
+    PTR(Split) splits;
+    PTR(float) samples; // [column][stride]
+    uint stride;
+    uint count; // of pixels: whole rows, in whole bands
+    uint firstRow;
+    uint width;     // of the picture
+    uint bandShift; // rows of the first band that lie above the picture
+    uint pass;
+    float radius;
 };
 
 struct GatherArgs {

@@ -30,6 +30,10 @@ SHARED_BEGIN
     X(COLUMN_SQUARE, COLUMN_COMPENSATION + 3u * uint(hasNoise))                                                        \
     X(SUM_COLUMNS, COLUMN_SQUARE + uint(hasBias))
 
+// After these the samples of camera paths have what gather rays bring to the diffuse point of a pixel (irradiance over
+// pi), and the bias of that.
+const uint GATHERED_COLUMNS = 6u;
+
 #ifdef __cplusplus
 /// Where the columns begin, and how many there are.
 struct Columns : Features {
@@ -41,11 +45,16 @@ struct Columns : Features {
         COLUMNS(X)
 #undef X
     }
+    /// Those of camera paths before their gathers are shared.
+    uint cameraColumns() const { return SAMPLE_COLUMNS + GATHERED_COLUMNS * uint(hasGlobalMap); }
 };
 #else
 #define X(name, value) const uint name = value;
 COLUMNS(X)
 #undef X
+const uint COLUMN_GATHERED = SAMPLE_COLUMNS;
+const uint COLUMN_GATHERED_BIAS = COLUMN_GATHERED + 3u;
+const uint CAMERA_COLUMNS = SAMPLE_COLUMNS + GATHERED_COLUMNS * uint(hasGlobalMap);
 #endif
 
 /// Passes begin .. end - 1.

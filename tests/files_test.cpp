@@ -102,8 +102,8 @@ TEST_F(Files, OutputsNeverReplaceInputsOrEachOther) {
                       "--report: found \"./error.csv\", the same file as --stats");
     }
     // Meshes are known once the scene is read.
-    expectRefused(glass + "--log knot.obj", "the same file as a mesh of the scene");
-    expectRefused(glass + "--stats knot.obj", "the same file as a mesh of the scene");
+    expectRefused(glass + "--log knot.obj", "the same file as a file of the scene");
+    expectRefused(glass + "--stats knot.obj", "the same file as a file of the scene");
 
     fs::remove(folder / "log.txt");
     std::map<std::string, std::string> after;

@@ -1,8 +1,10 @@
-/// Tens of thousands of damaged scenes and meshes: each is loaded whole, or refused by name and place, at once and in
-/// little memory.
+/// Tens of thousands of damaged scenes, meshes and models: each is loaded whole, or refused by name and place, at once
+/// and in little memory.
 #include "allocations.h"
 #include "draw.h"
+#include "gltf_text.h"
 #include "mutate.h"
+#include "ply_text.h"
 #include "refusal.h"
 #include "render/explain.h"
 #include "render/features.h"
@@ -39,7 +41,7 @@ std::uint64_t setting(const char* name, std::uint64_t otherwise) {
 }
 
 /// A mesh of 8 quads, with a pentagon, normals and texture coordinates.
-const char* const mesh =
+const char* const objMesh =
     "# a mesh\nmtllib none.mtl\no sheet\nv 0 0 0\nv 1 0 0\nv 2 0 0.5\nv 0 1 0\nv 1 1 0.25\nv 2 1 0\nv 0 2 1e-1\nv 1 2 "
     "0\nv 2 2 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\n"
     "usemtl a\ns 1\nf 1/1/1 2/1/1 5/1/2 4/1/1\nf 2//1 3//1 6//2 5//1\nf 4 5 8 7\nf -5 -4 -1 -2\nf 1 2 6 9 4\nf 1 2 5\n";
@@ -49,10 +51,12 @@ const char* const mesh =
 struct Corpus {
     fs::path folder = writeScene("", "x").parent_path();
     std::vector<json> scenes;
-    std::vector<std::string> meshes{mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
+    GltfText model = fullModel();
+    std::vector<std::string> plies{asciiPly(), binaryPly<std::endian::little>(), binaryPly<std::endian::big>()};
+    std::vector<std::string> meshes{objMesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
 
     Corpus() {
-        for (const char* name : {"knot.obj", "ring.obj", "water.obj", "ball.obj"}) writeScene(mesh, name);
+        for (const char* name : {"knot.obj", "ring.obj", "water.obj", "ball.obj"}) writeScene(objMesh, name);
         for (const char* name : {"box", "diffuse_box", "glass", "ring", "pool"})
             scenes.push_back(json::parse(read(fs::path{VKPM_SCENES} / (std::string{name} + ".json"))));
         scenes.push_back(smallScene());
@@ -79,20 +83,27 @@ public:
     /// Writes input `index` of a seed.
     Input make(std::uint64_t seed, std::uint64_t index) {
         Mutator mutator(static_cast<uint>(seed * 1'000'003 + index));
-        const bool damagesMesh = mutator.below(10) < 3;
-        const std::string text = damagesMesh ? "" : damagedScene(mutator);
-        const std::string damaged = damagesMesh ? damagedMesh(mutator) : "";
-        if (damagesMesh) writeScene(damaged, "damaged.obj");
-        if (!damagesMesh) return {writeScene(text), text.size() + 8 * std::strlen(mesh)};
-        static const fs::path scene = writeScene(sceneOfMesh().dump(), "mesh.json");
-        return {scene, damaged.size()};
+        const std::size_t kind = mutator.below(20);
+        if (kind < 3) return mesh("damaged.obj", damagedMesh(mutator));
+        if (kind < 6) return mesh("damaged.ply", damagedPly(mutator));
+        if (kind < 8) return mesh("damaged.glb", damagedModel(mutator));
+        if (kind < 12) return model(damagedModel(mutator));
+        const std::string text = damagedScene(mutator);
+        return {writeScene(text), text.size() + 8 * std::strlen(objMesh)};
     }
 
 private:
-    static json sceneOfMesh() {
+    Input mesh(const std::string& name, const std::string& damaged) {
+        writeScene(damaged, name);
+        return {writeScene(sceneOfMesh(name).dump(), name + ".json"), damaged.size()};
+    }
+
+    Input model(const std::string& damaged) { return {writeScene(damaged, "model.glb"), damaged.size()}; }
+
+    static json sceneOfMesh(const std::string& file) {
         json scene = smallScene();
         scene["shapes"].push_back(
-            {{"type", "mesh"}, {"file", "damaged.obj"}, {"material", "grey"}, {"smooth", true}, {"emission", 1}});
+            {{"type", "mesh"}, {"file", file}, {"material", "grey"}, {"smooth", true}, {"emission", 1}});
         return scene;
     }
 
@@ -111,6 +122,26 @@ private:
         for (std::size_t i = 1 + mutator.below(4); i > 0; i--)
             if (mutator.below(3) == 0) mutator.changeBytes(text);
             else mutator.changeMesh(text);
+        return text;
+    }
+
+    std::string damagedPly(Mutator& mutator) {
+        std::string text = mutator.oneOf(corpus.plies);
+        for (std::size_t i = 1 + mutator.below(3); i > 0; i--)
+            if (mutator.below(2) == 0) mutator.changeBytes(text);
+            else mutator.changePly(text);
+        return text;
+    }
+
+    /// Values of the JSON, bytes that it refers to, or bytes of the file.
+    std::string damagedModel(Mutator& mutator) {
+        GltfText damaged = corpus.model;
+        const bool values = mutator.below(10) < 7;
+        for (std::size_t i = values ? 1 + mutator.below(4) : 0; i > 0; i--) mutator.changeValue(damaged.json);
+        if (!damaged.json.is_object()) damaged.json = json::object();
+        if (mutator.below(4) == 0) mutator.changeBytes(damaged.bytes);
+        std::string text = damaged.glb();
+        for (std::size_t i = values ? 0 : 1 + mutator.below(4); i > 0; i--) mutator.changeBytes(text);
         return text;
     }
 
@@ -256,8 +287,8 @@ TEST(Fuzz, DamagedScenesAreLoadedWholeOrRefusedByPlace) {
         if (fault.empty()) continue;
         faults++;
         const fs::path kept = fs::temp_directory_path() / fmt::format("vkpm-fuzz-{}-{}", seed, index);
-        fs::copy(input.scene.filename() == "mesh.json" ? input.scene.parent_path() / "damaged.obj" : input.scene, kept,
-                 fs::copy_options::overwrite_existing);
+        const fs::path damaged = input.scene.parent_path() / input.scene.stem(); // of a mesh
+        fs::copy(fs::exists(damaged) ? damaged : input.scene, kept, fs::copy_options::overwrite_existing);
         ADD_FAILURE() << fault << "\n  input " << index << " of seed " << seed << ", kept as " << kept;
     }
     ::alarm(0);

@@ -96,6 +96,11 @@ TEST_F(HostileInput, FilesOfNoBytesAndOfTwoGibibytes) {
     write("holes.obj", triangle);
     fs::resize_file(folder / "holes.obj", 1ull << 30);
     expectMeshRefusal("holes.obj", ":5: found a byte 0");
+    for (const char* name : {"big.ply", "big.glb"}) {
+        write(name, "");
+        fs::resize_file(folder / name, 2ull << 30);
+    }
+    expectRefusal("big.glb", ":1: the file has more than 1024 MiB");
     write("numbers.json", "{\"shapes\": [" + std::string(30 << 20, '1') + "]}");
     expectRefusal("numbers.json", ":1:31457292: number overflow");
 }
@@ -122,7 +127,11 @@ TEST_F(HostileInput, PathsThatLeaveTheFolderAndCycles) {
     EXPECT_NO_THROW(loadScene(folder / "inner/scene.json")); // meshes may lie anywhere
     expectMeshRefusal("../../../../../../../../etc/passwd", ":");
     write("scene.json", withMesh("scene.json").dump());
-    expectRefusal("scene.json", ":1: found a JSON file (glTF)");
+    expectRefusal("scene.json", ": /: the key \"asset\" is missing"); // read as glTF
+    json importing = smallScene();
+    importing["import"] = "scene.json";
+    write("scene.json", importing.dump());
+    expectRefusal("scene.json", ": /import: found \"scene.json\"; allowed is a .gltf or .glb file");
     json scene = smallScene();
     scene["include"] = "scene.json";
     write("scene.json", scene.dump());

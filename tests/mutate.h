@@ -95,6 +95,47 @@ public:
         }
     }
 
+    /// Words and lines of a PLY file's header, or of an ascii one's values.
+    void changePly(std::string& text) {
+        static const std::vector<std::string> words{"nan",
+                                                    "-inf",
+                                                    "1e39",
+                                                    "1e400",
+                                                    "-1",
+                                                    "9",
+                                                    "4000000000",
+                                                    "99999999999999999999",
+                                                    "list",
+                                                    "char",
+                                                    "uchar",
+                                                    "int",
+                                                    "float",
+                                                    "double",
+                                                    "vertex",
+                                                    "face",
+                                                    "x",
+                                                    "nx",
+                                                    "red",
+                                                    "vertex_index",
+                                                    "ascii",
+                                                    "1.0",
+                                                    "2",
+                                                    "3",
+                                                    "0",
+                                                    "property",
+                                                    "element",
+                                                    "end_header",
+                                                    "\n",
+                                                    "\r\n",
+                                                    "property list uchar uchar a",
+                                                    "element edge 3",
+                                                    "comment a",
+                                                    "0.5"};
+        if (below(4) == 0)
+            return insert(text, (below(2) == 0 ? " " : "\n") + oneOf(words) + (below(2) == 0 ? " " : "\n"));
+        replaceWord(text, oneOf(words));
+    }
+
     /// Bytes: turned, cut out, put in, repeated, cut off.
     void changeBytes(std::string& text) {
         if (text.empty()) return insert(text, "x");

@@ -7,9 +7,9 @@
 
 namespace vkpm {
 
-/// The length of ":12:", ":12:34:" or ": /json/pointer:" at the start of a text; 0 if there is none.
+/// The length of ":12:", ":12:34:", ": byte 12:" or ": /json/pointer:" at the start of a text; 0 if there is none.
 inline std::size_t placeLength(std::string_view text) {
-    if (text.starts_with(": /")) {
+    if (text.starts_with(": /") || text.starts_with(": byte ")) {
         const std::size_t end = text.find(": ", 2);
         return end == std::string_view::npos ? 0 : end + 1;
     }

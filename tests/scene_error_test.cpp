@@ -2,6 +2,7 @@
 // GCC 12 with sanitizers mistakes the insides of std::regex, which valijson uses, for uninitialized.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
+#include "gltf_text.h"
 #include "scene/reader.h"
 #include "scene/text.h"
 #include "scene_text.h"
@@ -185,7 +186,8 @@ std::vector<json::json_pointer> places(const json& value, const json::json_point
 const auto beyondSchema =
     AnyOf(HasSubstr("no light"), HasSubstr("unknown material"), HasSubstr("does not exist"), HasSubstr("a folder"),
           HasSubstr("no area"), HasSubstr("along the view"), HasSubstr("is the origin"), HasSubstr("singular"),
-          HasSubstr("length 0"), HasSubstr("affine"), HasSubstr("non-uniform"), HasSubstr("at most 1e12"));
+          HasSubstr("length 0"), HasSubstr("allowed is a .gltf or .glb file"), HasSubstr("affine"),
+          HasSubstr("non-uniform"), HasSubstr("at most 1e12"));
 
 /// The schema must refuse nothing that the loader takes; what it takes the loader may refuse for reasons of its own.
 void expectAgreement(const json& scene, const std::string& what) {
@@ -196,6 +198,29 @@ void expectAgreement(const json& scene, const std::string& what) {
         EXPECT_NE(error, "") << what;
     }
     EXPECT_THAT(error, AnyOf("", HasSubstr("scene.json: /"))) << what;
+}
+
+// Every key of "import" against every kind of value.
+TEST(Schema, AgreesWithTheLoaderAboutImports) {
+    writeScene(squareModel().glb(), "model.glb");
+    json scene = smallScene();
+    scene["import"] = json::parse(
+        R"({"file": "model.glb", "transform": [{"scale": 2}], "lights": "raw", "lampRadius": 0.1, "glass": "thin"})");
+    expectAgreement(scene, "import");
+    EXPECT_EQ(errorOf(scene), "");
+    for (const char* key : {"file", "transform", "lights", "lampRadius", "glass", "surplus"})
+        for (const json& value : {json(nullptr), json(0), json(1), json(-1), json("x"), json("auto"), json("standard"),
+                                  json::array(), json::object()}) {
+            json changed = scene;
+            changed["import"][key] = value;
+            expectAgreement(changed, key + (" = " + value.dump()));
+        }
+    for (const char* key : {"camera", "shapes", "import"}) {
+        json changed = scene;
+        changed.erase(key);
+        EXPECT_EQ(errorOf(changed), "") << key;
+        EXPECT_TRUE(schemaAccepts(changed)) << key;
+    }
 }
 
 TEST(Schema, AgreesWithTheLoaderAboutEveryValue) {

@@ -117,7 +117,8 @@ TEST(CameraJson, TakesTheValueOfTheTopmostKeyAlone) {
     const std::string expected =
         R"({"about": "\"camera\": {", "a": [{"camera": {"x": 1}}], "camera" : )" + cameraJson(start) + R"( , "c": 2})";
     EXPECT_EQ(withCamera(text, start), expected);
-    EXPECT_EQ(withCamera(R"({"shapes": []})", start), R"({"shapes": []})");
+    EXPECT_EQ(withCamera(R"({"import": "a.glb"})", start),
+              R"({"camera": )" + cameraJson(start) + R"(, "import": "a.glb"})");
 }
 
 std::vector<Pixel> pixelsOf(const std::vector<vec3>& colors) {
@@ -188,6 +189,12 @@ TEST(SceneWatch, SeesTheSceneAndItsMeshes) {
     EXPECT_TRUE(watch.changed());
     write("b.obj", "1");
     EXPECT_TRUE(watch.changed());
+    write("m.gltf", R"({"buffers": [{"uri": "m.bin"}, {"uri": "data:;base64,AA"}]})");
+    write("s.json", R"({"import": {"file": "m.gltf"}})");
+    EXPECT_TRUE(watch.changed());
+    write("m.bin", "1");
+    EXPECT_TRUE(watch.changed());
+    EXPECT_FALSE(watch.changed());
     fs::remove_all(folder);
 }
 

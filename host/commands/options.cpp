@@ -21,7 +21,7 @@ void addMachine(Parser& parser, RenderOptions& options) {
 
 void addFiles(Parser& parser, RenderOptions& options) {
     parser.group("Files");
-    parser.add("--scene", "FILE", "scene to render (JSON); required", options.scene, sceneOf);
+    parser.add("--scene", "FILE", "scene to render (JSON), or a model (.glb, .gltf); required", options.scene, sceneOf);
     parser.add("-o,--output", "FILE.exr", "image; a PNG is written beside it (default: the scene's name, here)",
                options.output, exrOf);
     parser.add("--stats", "FILE.json", "what the render did: seconds, rays, photons, memory", options.stats, outputOf);
@@ -156,7 +156,7 @@ Options parsePlan(std::span<const std::string> arguments) {
     const Settings defaults;
     Parser parser("Say what a scene needs, what is left out and why, and how much memory it takes. Renders one pass.",
                   "vkpm plan --scene FILE [options]");
-    parser.add("--scene", "FILE", "scene (JSON); required", options.scene, sceneOf);
+    parser.add("--scene", "FILE", "scene (JSON) or model (.glb, .gltf); required", options.scene, sceneOf);
     parser.flag("--json", "as JSON", options.json);
     addImage(parser, options, defaults, std::to_string(defaults.passes));
     addPhotons(parser, options, defaults);

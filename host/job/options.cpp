@@ -60,7 +60,7 @@ void requireFilesApart(const RenderOptions& options, std::span<const fs::path> s
     if (options.report)
         for (const char* name : Report::files) written.push_back({"--report", *options.report / name});
     for (const fs::path& file : sceneFiles)
-        read.push_back({file == sceneFiles[0] ? "the scene" : "a mesh of the scene", file});
+        read.push_back({file == sceneFiles[0] ? "the scene" : "a file of the scene", file});
     if (options.reference) read.push_back({"--reference", *options.reference});
     requireApart(written, read);
 }

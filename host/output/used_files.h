@@ -6,7 +6,7 @@
 
 namespace vkpm {
 
-/// A file and what it is for the user, such as "--stats" or "a mesh of the scene".
+/// A file and what it is for the user, such as "--stats" or "a file of the scene".
 struct UsedFile {
     std::string what;
     std::filesystem::path path;

@@ -26,12 +26,28 @@ RayCounts CameraBatch::rays() const {
     return rays;
 }
 
+static bool sharesGathers(const Features& features, const Settings& settings) {
+    return settings.integrator == INTEGRATOR_PHOTON && features.hasGlobalMap && asksLights(features, settings);
+}
+
+/// Pixels of a batch: whole bands, at least one, if pixels of a band share.
+static uint batchOf(uvec2 picture, uint wanted, bool shares) {
+    const uint band = SHARING_BAND * picture.x;
+    return shares ? std::max(wanted / band, 1u) * band : wanted;
+}
+
+/// Rows of the first band that lie above the picture: where bands meet differs from pass to pass.
+static uint bandShift(uint pass) { return pass * 13 % SHARING_BAND; } // 13: each once in that many passes
+
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
                          uint batchSize)
-    : gpu(device), scene(uploaded), settings(set), features(has), size(std::min(set.size.x * set.size.y, batchSize)),
+    : gpu(device), scene(uploaded), settings(set), features(has), shares(sharesGathers(has, set)),
+      batch(batchOf(set.size, batchSize, shares)),
+      size(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       eye(gpu, "eye", features), traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
-    samples = Buffer<float>(gpu, "camera samples", std::uint64_t(Columns(features).SAMPLE_COLUMNS) * size);
+    const Columns columns(features);
+    samples = Buffer<float>(gpu, "camera samples", std::uint64_t(columns.cameraColumns()) * size);
     if (asksLights(features, settings)) {
         shadowRays = Buffer<ShadowRay>(gpu, "camera shadow rays", size);
         shadow.emplace(gpu, "shadow", features);
@@ -43,6 +59,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
     if (settings.integrator == INTEGRATOR_PHOTON && shadow) {
         splits = Buffer<Split>(gpu, "camera splits", size);
         split.emplace(gpu, "split", features);
+        if (shares) share.emplace(gpu, "share_gathers", features);
     }
 }
 
@@ -111,6 +128,26 @@ void CameraPaths::followPaths(Recording& recording, const Paths& of, uint bounce
     } while (queues[QUEUE_CONTINUE].count > 0 && bounce < MAX_BOUNCES);
 }
 
+/// Pixels give each other what their gather rays brought.
+void CameraPaths::shareGathers(Recording& recording, const CameraBatch& batch) {
+    if (!share || maps.marks) return;
+    recording.run(*share, batch.count,
+                  {scene.address, splits, samples, size, batch.count, batch.first / settings.size.x, settings.size.x,
+                   bandShift(pass), pass, maps.sharingRadius});
+}
+
+std::vector<CameraBatch> CameraPaths::batches(uint index) const {
+    const uint pixels = settings.size.x * settings.size.y;
+    const uint above = shares ? bandShift(index) * settings.size.x : 0;
+    const uint count = (pixels + batch - 1) / batch; // the last one is longer by what the first one lacks
+    std::vector<CameraBatch> batches;
+    for (uint i = 0; i < count; i++) {
+        const uint first = i == 0 ? 0 : i * batch - above;
+        batches.push_back({.first = first, .count = (i + 1 == count ? pixels : (i + 1) * batch - above) - first});
+    }
+    return batches;
+}
+
 void CameraPaths::begin(uint index, const PhotonMaps& asked) {
     pass = index;
     maps = asked;
@@ -135,6 +172,7 @@ void CameraPaths::record(Recording& recording, CameraBatch& batch) {
         castShadowRays(recording);
         followPaths(recording, gathering, 1, batch.queues[1 + ray]);
     }
+    shareGathers(recording, batch);
 }
 
 } // namespace vkpm

@@ -29,6 +29,7 @@ struct PhotonMaps {
     PhotonMap caustic{};
     std::vector<PhotonMap> narrow{};     // of caustics, asked first: the narrowest discs first
     float nearDistance = 0;              // a gather ray shorter than this goes on
+    float sharingRadius = 0;             // see share_gathers.comp
     const VisibleCells* marks = nullptr; // the places are marked there, and nothing is gathered
 };
 
@@ -56,6 +57,8 @@ public:
 
     /// Pixels that one batch may have.
     uint capacity() const { return size; }
+    /// The batches of a pass.
+    std::vector<CameraBatch> batches(uint pass) const;
     /// Begins a pass, until whose end `maps` stay as they are.
     void begin(uint pass, const PhotonMaps& maps);
     /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done. Most
@@ -75,6 +78,7 @@ private:
         uint index; // of the sample
     };
     void castShadowRays(Recording& recording);
+    void shareGathers(Recording& recording, const CameraBatch& batch);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
     void recordBounce(Recording& recording, const Paths& of, uint bounce);
     void followPaths(Recording& recording, const Paths& of, uint bounce, std::array<Queue, EYE_QUEUES>& queues);
@@ -83,6 +87,8 @@ private:
     const UploadedScene& scene;
     Settings settings;
     Features features;
+    bool shares; // what gather rays bring
+    uint batch;  // pixels wanted of one
     uint size;
     uint pass = 0;
     float pixelAngle = 0;
@@ -98,7 +104,8 @@ private:
     Kernel<ShadeArgs> shade;
     std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
-    std::optional<Kernel<SplitArgs>> split; // absent if paths are not split
+    std::optional<Kernel<SplitArgs>> split;        // absent if paths are not split
+    std::optional<Kernel<ShareGathersArgs>> share; // absent if there is no global map
 };
 
 } // namespace vkpm

@@ -7,6 +7,9 @@ namespace vkpm {
 // A gather ray that ends nearer than this many radii would read the blurred corner that it comes from.
 const float nearRadii = 3;
 
+// What gather rays bring varies less from place to place than photons do: it is shared this many radii around.
+const float sharingRadii = 2;
+
 Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, BatchSizes batchSizes)
     : Renderer(device, input, set, sceneFeatures(input, set), batchSizes) {}
 
@@ -101,7 +104,9 @@ PhotonMaps Renderer::maps(uint pass) const {
     PhotonMaps maps;
     if (global) {
         maps.global = global->map();
-        maps.nearDistance = nearRadii * global->medianRadius() * radiusFactor(pass, settings.alpha);
+        const float radius = global->medianRadius() * radiusFactor(pass, settings.alpha);
+        maps.sharingRadius = sharingRadii * radius;
+        maps.nearDistance = nearRadii * radius;
     }
     if (caustic) {
         maps.caustic = caustic->map();
@@ -113,16 +118,13 @@ PhotonMaps Renderer::maps(uint pass) const {
 /// The paths of a pass, a batch after the other, into the film. While the device works on one the host records the
 /// next.
 void Renderer::tracePaths(Recording& recording, uint pass) {
-    const uint pixels = settings.size.x * settings.size.y, batchSize = camera->capacity();
-    if (underWay.empty())
-        for (uint first = 0; first < pixels; first += batchSize)
-            underWay.push_back({.first = first, .count = std::min(batchSize, pixels - first)});
+    if (underWay.empty()) underWay = camera->batches(pass);
     camera->begin(pass, maps(pass));
     if (submitted == 0) film.begin(recording, pass);
     const auto record = [&](CameraBatch& batch) {
         camera->record(recording, batch);
-        if (light) light->recordSums(recording, camera->samples, batchSize, batch.first, batch.count);
-        film.add(recording, camera->samples, batchSize, batch.first, batch.count);
+        if (light) light->recordSums(recording, camera->samples, camera->capacity(), batch.first, batch.count);
+        film.add(recording, camera->samples, camera->capacity(), batch.first, batch.count);
     };
     try {
         for (; submitted < underWay.size(); submitted++) {

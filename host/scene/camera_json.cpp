@@ -79,7 +79,10 @@ std::string withCamera(const std::string& text, const View& view) {
         const std::size_t begin = text.find('{', end);
         return text.substr(0, begin) + cameraJson(view) + text.substr(endOfObject(text, begin));
     }
-    return text;
+    const std::size_t begin = text.find('{') + 1;
+    const bool isEmpty = text.at(text.find_first_not_of(" \t\r\n", begin)) == '}';
+    return text.substr(0, begin) + fmt::format("\"camera\": {}{}", cameraJson(view), isEmpty ? "" : ", ") +
+           text.substr(begin);
 }
 
 } // namespace vkpm

@@ -12,7 +12,7 @@ View inWorldDigits(View view);
 /// The value of a scene's "camera"; read again, it is the same view, bit for bit, if it is in world digits.
 std::string cameraJson(const View& view);
 
-/// The text of a scene with this value in place of its camera's, else as it was.
+/// The text of a scene with this value in place of its camera's, or put in front where an import brings the camera.
 std::string withCamera(const std::string& sceneText, const View& view);
 
 } // namespace vkpm

@@ -58,7 +58,17 @@ std::vector<std::string> sceneDifferences(const std::string& here, const std::st
         }
         lines.push_back("scene: " + change["path"].get<std::string>());
     }
-    if (lines.empty()) lines.push_back("scene: what its mesh files hold");
+    return lines;
+}
+
+/// Files whose bytes differ, or that one of the two has not.
+std::vector<std::string> fileDifferences(const std::string& here, const std::string& there) {
+    std::vector<std::string> lines;
+    const json a = json::parse(here, nullptr, false), b = json::parse(there, nullptr, false);
+    if (!a.is_object() || !b.is_object()) return lines;
+    for (const json& change : json::diff(a, b))
+        lines.push_back("scene: what the file \"" + json::json_pointer{change["path"].get<std::string>()}.back() +
+                        "\" holds");
     return lines;
 }
 
@@ -86,6 +96,7 @@ std::map<std::string, std::string> identityOf(const Scene& scene, const Settings
                                                 {"sceneHash", sceneHash(scene)},
                                                 {"settings", settingsJson(settings)},
                                                 {"seed", std::to_string(settings.seed)}};
+    if (!scene.fileHashes.empty()) identity["files"] = json(scene.fileHashes).dump();
     identity["settingsHash"] = hashText(identity["version"] + identity["sceneHash"] + identity["settings"]);
     return identity;
 }
@@ -97,9 +108,14 @@ std::vector<std::string> differences(const std::map<std::string, std::string>& h
     std::vector<std::string> lines;
     if (value(here, "version") != value(there, "version"))
         lines.push_back(fmt::format("version: {} here, {} there", value(here, "version"), value(there, "version")));
-    if (value(here, "sceneHash") != value(there, "sceneHash"))
+    if (value(here, "sceneHash") != value(there, "sceneHash")) {
+        const std::size_t before = lines.size();
         for (const std::string& line : sceneDifferences(value(here, "scene"), value(there, "scene")))
             lines.push_back(line);
+        for (const std::string& line : fileDifferences(value(here, "files"), value(there, "files")))
+            lines.push_back(line);
+        if (lines.size() == before) lines.push_back("scene: what its meshes and imports hold");
+    }
     for (const std::string& line : settingsDifferences(value(here, "settings"), value(there, "settings")))
         lines.push_back(line);
     if (lines.empty()) lines.push_back("settingsHash: damaged");

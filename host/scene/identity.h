@@ -6,7 +6,8 @@
 namespace vkpm {
 
 /// The attributes that a render's file carries for this: version, scene (its text), sceneHash (of what it loads to,
-/// meshes included), settings as JSON, settingsHash (of all these), seed.
+/// meshes included), files (JSON: their names and hashes, if there are any but the scene's), settings as JSON,
+/// settingsHash (of all these), seed.
 std::map<std::string, std::string> identityOf(const Scene& scene, const Settings& settings);
 
 /// What differs between two such sets of attributes, one line each with what `here` and `there` have; empty if they are

@@ -64,7 +64,7 @@ private:
 
     bool open(json container) {
         if (containers.size() >= deepest)
-            fail(fmt::format("nested deeper than {} levels", deepest), "a scene needs no more than 6");
+            fail(fmt::format("nested deeper than {} levels", deepest), "no scene and no model needs as many");
         containers.push_back(place(std::move(container)));
         keys.emplace_back();
         return true;

@@ -1,6 +1,8 @@
 /// The loader of scene files: camera, film, settings and materials, then the shapes and what follows from them.
 #include "scene/box.h"
 #include "scene/bvh.h"
+#include "scene/hash.h"
+#include "scene/import.h"
 #include "scene/lights.h"
 #include "scene/materials.h"
 #include "scene/reader.h"
@@ -8,6 +10,7 @@
 #include "scene/shapes.h"
 #include "scene/text.h"
 #include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -95,31 +98,98 @@ void checkExtent(const Scene& scene, const std::filesystem::path& file) {
             "allowed are at least 1e-9 and at most 1e12");
 }
 
+/// The camera of an import, whose proportions the film takes if it has no size of its own.
+Reader importedCamera(Import& import, std::optional<Reader> film, Settings& settings) {
+    const Reader camera = import.camera();
+    if (import.aspect() && !(film && film->find("size"))) {
+        const float ratio = *import.aspect(), longer = static_cast<float>(std::max(settings.size.x, settings.size.y));
+        const vec2 size = longer * vec2{std::min(ratio, 1.0f), std::min(1 / ratio, 1.0f)};
+        settings.size = uvec2{glm::max(glm::round(size), vec2{1})};
+    }
+    return camera;
+}
+
+/// What a part of an import is made of: a material of the scene by the same name, or that of the file.
+ShapeLoader::Surface importedSurface(Import& import, uint index, Scene& scene,
+                                     const std::map<std::string, uint>& ofScene) {
+    const GltfMaterial imported = import.material(index);
+    const auto own = ofScene.find(import.materialName(index));
+    ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
+                                 imported.radiance, imported.twoSided};
+    if (own == ofScene.end()) {
+        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene.rests));
+    } else if (scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
+        surface.radiance = vec3{0};
+    }
+    return surface;
+}
+
+/// Adds what an import has. Materials of the scene go before its own, whose names shapes of the scene may use.
+void addImport(Import& import, Scene& scene, std::map<std::string, uint>& indices, ShapeLoader& loader) {
+    const std::map<std::string, uint> ofScene = indices;
+    std::map<uint, ShapeLoader::Surface> surfaces;
+    for (const ImportedInstance& instance : import.instances())
+        for (std::size_t i = instance.firstPart; i < instance.endPart; ++i) {
+            const ImportedPart& part = import.parts()[i];
+            if (!surfaces.contains(part.material)) {
+                surfaces[part.material] = importedSurface(import, part.material, scene, ofScene);
+                indices.try_emplace(import.materialName(part.material), surfaces[part.material].material);
+            }
+            if (loader.add(part.place, part.mesh, instance.transform, surfaces[part.material]) > 0)
+                import.lose(part.place, "triangles without an area are left out");
+        }
+    const Reader lamps = import.lamps();
+    for (std::size_t i = 0; i < lamps.count(0, NONE, ""); ++i) loader.add(lamps.element(i));
+}
+
 void readScene(Reader root, Scene& scene) {
     if (const auto about = root.find("about")) (void)about->text();
     if (const auto schema = root.find("$schema")) (void)schema->text();
-    const Reader camera = root.at("camera");
+    const auto importReader = root.find("import");
+    auto camera = importReader ? root.find("camera") : root.at("camera");
     const auto film = root.find("film");
     const auto settings = root.find("settings");
     const auto materials = root.find("materials");
-    const Reader shapes = root.at("shapes");
+    const auto shapes = importReader ? root.find("shapes") : root.at("shapes");
     root.finish();
 
-    (void)readView(camera, {}); // what is wrong with it comes first
+    if (camera) (void)readView(*camera, {}); // what is wrong with it comes first
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
     std::map<std::string, uint> indices;
     if (materials) indices = readMaterials(*materials, scene);
 
+    std::optional<Import> import;
+    if (importReader) noteFiles(scene, import.emplace(*importReader).files());
+    if (!camera) camera = importedCamera(*import, film, scene.settings);
     ShapeLoader loader{scene, indices};
-    const std::size_t count = shapes.count(1, manyShapes, "an array of shapes, at least one");
+    const std::size_t count = shapes ? shapes->count(1, manyShapes, "an array of shapes, at least one") : 0;
     std::vector<dvec3> places; // not the camera's, which may move while the scene stays where it is
+    if (import) places = import->somePlaces();
     for (std::size_t i = 0; i < count; ++i)
-        for (const dvec3& place : loader.somePlaces(shapes.element(i))) places.push_back(place);
+        for (const dvec3& place : loader.somePlaces(shapes->element(i))) places.push_back(place);
     scene.coordinates = chooseCoordinates(places);
-    scene.view = readView(camera, scene.coordinates);
-    for (std::size_t i = 0; i < count; ++i) loader.add(shapes.element(i));
+    scene.view = readView(*camera, scene.coordinates);
+    if (import) addImport(*import, scene, indices, loader);
+    for (std::size_t i = 0; i < count; ++i) loader.add(shapes->element(i));
+    if (import && scene.lights.empty()) loader.add(import->sky().element(0));
+    if (import) import->tellLosses(scene.warnings);
     loader.finish();
+}
+
+/// Hashes of files but the first, for those who ask later what has changed.
+void hashFiles(Scene& scene) {
+    for (std::size_t i = 1; i < scene.files.size(); ++i) {
+        const std::string bytes = readBytes(scene.files[i], maxMeshBytes, "");
+        Hash hash;
+        for (std::size_t at = 0; at < bytes.size(); at += 4) {
+            std::uint32_t word = 0;
+            std::memcpy(&word, &bytes[at], std::min<std::size_t>(4, bytes.size() - at));
+            hash.add(word);
+        }
+        const auto name = scene.files[i].lexically_relative(scene.files.front().parent_path());
+        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] = hash.text();
+    }
 }
 
 } // namespace
@@ -131,13 +201,15 @@ Scene loadScene(const std::filesystem::path& file) {
     Scene scene;
     scene.name = file.stem().string();
     scene.files.push_back(file);
-    scene.text = readText(file, maxSceneBytes, "give a scene file; its meshes belong into OBJ files");
+    if (isGltfName(file)) scene.text = nlohmann::json{{"import", file.filename().string()}}.dump();
+    else scene.text = readText(file, maxSceneBytes, "give a scene file; its meshes belong into files of their own");
     if (scene.text.find_first_not_of(" \t\r\n") == std::string::npos)
         refuseFile(file, ":1:1", "the file is empty", "give a scene, {\"camera\": ..., \"shapes\": ...}");
 
     const nlohmann::json json = parseJson(file, scene.text);
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
+    hashFiles(scene);
     chooseLights(scene, file);
     scene.lit = sphereOfLit(scene);
     scene.near = sphereOfNear(scene);

@@ -1,6 +1,6 @@
-/// Triangle meshes read from Wavefront OBJ files.
+/// Triangle meshes read from OBJ, PLY and glTF files.
 #pragma once
-#include "shared.h"
+#include "scene/indexed_mesh.h"
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -20,10 +20,15 @@ struct Mesh {
     };
     std::vector<Triangle> triangles;
     std::vector<std::string> warnings;
+    std::vector<std::filesystem::path> files; // that were read
 };
 
-/// The mesh of an OBJ file, polygons triangulated. `smooth` computes the normals that the file lacks,
-/// weighted by angle (Thuermer & Wuethrich 1998). Throws InputError with file:line for what is not sound.
+/// The mesh of an OBJ, PLY or glTF file, whatever its name; polygons are triangulated. Throws InputError with the place
+/// of what is not sound.
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness);
+
+/// What a reader brought, as a mesh. `smooth` computes the normals that the file lacks, weighted by angle (Thuermer &
+/// Wuethrich 1998). Throws InputError for a normal that is not finite.
+Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothness smoothness);
 
 } // namespace vkpm

@@ -15,8 +15,6 @@ namespace vkpm {
 
 namespace {
 
-constexpr std::size_t maxCorners = 20'000; // of a face: to cut the worst takes seconds
-
 /// Takes the next word off a line; empty at its end and before a comment.
 std::string_view takeWord(std::string_view& line) {
     const std::size_t start = std::min(line.find_first_not_of(" \t"), line.size());
@@ -54,7 +52,7 @@ class ObjReader {
 public:
     explicit ObjReader(const std::filesystem::path& path) : file{path} {}
 
-    Obj read(std::string_view text) {
+    IndexedMesh read(std::string_view text) {
         for (std::size_t next = 1; !text.empty(); ++next) {
             line = next;
             std::string_view whole = takeLine(text);
@@ -95,7 +93,8 @@ private:
                     line, std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())).substr(0, 60))};
         } else if (keyword == "vn") {
             obj.normals.push_back(vec3{readNumbers(rest)});
-            obj.normalLines.push_back(line);
+            if (!isFinite(glm::dvec3{obj.normals.back()}))
+                obj.wrongNormals[obj.normals.size() - 1] = fmt::format(":{}", line);
         } else if (keyword == "usemtl") {
             const std::string_view name = rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size()));
             material = name.substr(0, name.find_last_not_of(" \t") + 1);
@@ -168,10 +167,10 @@ private:
     }
 
     void addTriangles(const Face& face) {
-        const std::span<const Obj::Corner> polygon = std::span{corners}.subspan(begin, face.end - begin);
+        const std::span<const IndexedMesh::Corner> polygon = std::span{corners}.subspan(begin, face.end - begin);
         begin = face.end;
         points.clear();
-        for (const Obj::Corner corner : polygon) {
+        for (const IndexedMesh::Corner corner : polygon) {
             requireIndex(corner.vertex, obj.vertices.size(), "vertex", face);
             if (!isFinite(obj.vertices[corner.vertex])) refuseVertex(corner.vertex);
             if (corner.normal != NONE) requireIndex(corner.normal, obj.normals.size(), "normal", face);
@@ -198,8 +197,8 @@ private:
     std::string material;
     bool materialIsNew = false;                                         // no face has it yet
     std::map<std::size_t, std::pair<std::size_t, std::string>> unsound; // vertices that are not finite: line and text
-    Obj obj;
-    std::vector<Obj::Corner> corners; // of all faces
+    IndexedMesh obj;
+    std::vector<IndexedMesh::Corner> corners; // of all faces
     std::vector<Face> faces;
     std::size_t begin = 0;          // first corner of the face whose triangles are next
     std::vector<glm::dvec3> points; // its corners
@@ -207,6 +206,6 @@ private:
 
 } // namespace
 
-Obj readObj(const std::filesystem::path& file, std::string_view text) { return ObjReader{file}.read(text); }
+IndexedMesh readObj(const std::filesystem::path& file, std::string_view text) { return ObjReader{file}.read(text); }
 
 } // namespace vkpm

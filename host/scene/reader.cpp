@@ -33,7 +33,8 @@ void Reader::fail(std::string_view found, std::string_view allowed) const {
 }
 
 void Reader::warn(std::vector<std::string>& warnings, std::string_view message) const {
-    warnings.push_back(fmt::format("{}: {}: {}", printable(file->string()), printable(pointer), message));
+    warnings.push_back(
+        fmt::format("{}: {}: {}", printable(file->string()), pointer.empty() ? "/" : printable(pointer), message));
 }
 
 std::string Reader::describe() const {

@@ -1,9 +1,15 @@
-/// The pinhole camera of a view.
+/// The pinhole camera of a view, and the list of files.
 #include "scene/scene.h"
+#include <algorithm>
 #include <cmath>
 
 namespace vkpm {
 using glm::dvec3;
+
+void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files) {
+    for (const std::filesystem::path& file : files)
+        if (std::ranges::find(scene.files, file) == scene.files.end()) scene.files.push_back(file);
+}
 
 Camera pinholeCamera(const View& view, uvec2 size) {
     const double tangent = std::tan(double{view.fieldOfView} / 2);

@@ -6,6 +6,7 @@
 #include "shared_scene.h"
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ struct View {
 };
 
 struct Scene {
-    Coordinates coordinates{};                // of all places and lengths here and on the device
-    std::string name;                         // the file's name without folder and extension
-    std::string text;                         // the scene file as read
-    std::vector<std::filesystem::path> files; // that were read: the scene file first, then meshes
+    Coordinates coordinates{};                     // of all places and lengths here and on the device
+    std::string name;                              // the file's name without folder and extension
+    std::string text;                              // the scene file as read
+    std::vector<std::filesystem::path> files;      // that were read: the scene file first, then meshes and imports
+    std::map<std::string, std::string> fileHashes; // of the files after the first, by name relative to it
     std::vector<Node> nodes;
     std::vector<Leaf> leaves;
     std::vector<Primitive> primitives; // triangles, then spheres
@@ -53,8 +55,12 @@ struct Scene {
     std::vector<std::string> warnings; // what was put right or looks wrong, each with its place
 };
 
-/// The scene of a JSON file; meshes are found relative to the file. Throws InputError.
+/// The scene of a JSON file; meshes are found relative to the file. A glTF file is a scene that imports it. Throws
+/// InputError.
 Scene loadScene(const std::filesystem::path& file);
+
+/// Adds files to those that were read, each once.
+void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files);
 
 /// The pinhole camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);

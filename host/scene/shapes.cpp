@@ -197,9 +197,11 @@ const Mesh& ShapeLoader::meshOf(Reader& shape) {
     const auto known = meshes.find({file, smoothness});
     if (known != meshes.end()) return known->second;
     if (const std::string problem = fileProblem(file, true); !problem.empty())
-        fileReader.fail(fmt::format("{}: {}", file.string(), problem), "give an OBJ file, relative to the scene file");
-    if (std::ranges::find(scene.files, file) == scene.files.end()) scene.files.push_back(file);
-    return meshes.emplace(std::pair{file, smoothness}, loadMesh(file, smoothness)).first->second;
+        fileReader.fail(fmt::format("{}: {}", file.string(), problem),
+                        "give an OBJ, PLY or glTF file, relative to the scene file");
+    Mesh mesh = loadMesh(file, smoothness);
+    noteFiles(scene, mesh.files);
+    return meshes.emplace(std::pair{file, smoothness}, std::move(mesh)).first->second;
 }
 
 void ShapeLoader::addMesh(Reader& shape) {
@@ -210,15 +212,21 @@ void ShapeLoader::addMesh(Reader& shape) {
     shape.finish();
     const Mesh& mesh = meshOf(shape);
 
-    const std::size_t first = scene.primitives.size();
-    for (const Mesh::Triangle& triangle : mesh.triangles) addTriangle(shape, triangle, transform, surface);
-    const std::size_t added = scene.primitives.size() - first;
-    const std::size_t dropped = mesh.triangles.size() - added;
-    if (added == 0) fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
+    const std::size_t dropped = add(shape, mesh, transform, surface);
+    if (dropped == mesh.triangles.size())
+        fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
     for (const std::string& warning : mesh.warnings) fileReader.warn(scene.warnings, warning);
     if (dropped > 0)
         shape.warn(scene.warnings,
                    fmt::format("{} of {} triangles have no area and were dropped", dropped, mesh.triangles.size()));
+}
+
+std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transform& transform,
+                             const Surface& surface) {
+    const std::size_t first = scene.primitives.size();
+    for (const Mesh::Triangle& triangle : mesh.triangles) addTriangle(shape, triangle, transform, surface);
+    const std::size_t dropped = mesh.triangles.size() - (scene.primitives.size() - first);
+    if (dropped == mesh.triangles.size()) return dropped;
 
     std::vector<vec3> points;
     for (std::size_t i = first; i < scene.primitives.size(); ++i)
@@ -226,6 +234,7 @@ void ShapeLoader::addMesh(Reader& shape) {
             points.push_back(point);
     addTarget(surface, boundingSphere(points));
     noteGlass(shape, surface, first);
+    return dropped;
 }
 
 void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,

@@ -14,6 +14,12 @@ namespace vkpm {
 /// Fills the primitives, normals, lights and targets of a scene, shape by shape.
 class ShapeLoader {
 public:
+    struct Surface {
+        uint material = 0;
+        vec3 radiance{0};
+        bool twoSided = false;
+    };
+
     /// `indices` maps names to indices into `scene.materials`.
     ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
 
@@ -21,16 +27,13 @@ public:
     std::vector<glm::dvec3> somePlaces(Reader shape);
     /// Adds one element of "shapes", in the scene's coordinates. Throws InputError.
     void add(Reader shape);
+    /// Adds a triangle mesh that no element of "shapes" brings; what is wrong with it is told of `place`. Returns how
+    /// many of its triangles have no area, and were left out.
+    std::size_t add(const Reader& place, const Mesh& mesh, const Transform& transform, const Surface& surface);
     /// Appends the spheres, which follow all triangles, and warns of glass that is not the boundary of a solid.
     void finish();
 
 private:
-    struct Surface {
-        uint material = 0;
-        vec3 radiance{0};
-        bool twoSided = false;
-    };
-
     Surface readSurface(Reader& shape);
     uint readMaterial(Reader& shape, bool emits);
     uint blackMaterial();

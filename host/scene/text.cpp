@@ -51,6 +51,34 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     refuseFile(file, fmt::format(":{}", line), "found a byte 0", "allowed is text in UTF-8");
 }
 
+/// The contents of a file; of text, where it ends is known by the first byte 0 at the latest.
+std::string readPieces(const fs::path& file, std::uint64_t most, std::string_view advice, bool isText) {
+    const auto refuseSize = [&] {
+        refuseFile(file, ":1", fmt::format("the file has more than {} MiB", most >> 20), advice);
+    };
+    std::error_code unknown;
+    const std::uint64_t bytes = fs::file_size(file, unknown);
+    if (!unknown && bytes > most) refuseSize();
+
+    // Devices and pipes do not say how long they are.
+    std::ifstream stream{file, std::ios::binary};
+    std::string text;
+    if (!unknown && !isText) text.reserve(bytes);
+    std::array<char, 1 << 16> piece;
+    while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
+        text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > most) refuseSize();
+        if (!isText) continue;
+        if (const void* zero = std::memchr(piece.data(), 0, static_cast<std::size_t>(stream.gcount())))
+            refuseZero(file, text,
+                       text.size() -
+                           static_cast<std::size_t>(stream.gcount() - (static_cast<const char*>(zero) - piece.data())));
+    }
+    if (stream.bad() || !stream.eof())
+        throw std::runtime_error(fmt::format("{}: read: {}", file.string(), std::strerror(errno)));
+    return text;
+}
+
 } // namespace
 
 std::string fileProblem(const fs::path& file, bool regular) {
@@ -68,27 +96,12 @@ std::string fileProblem(const fs::path& file, bool regular) {
     return "";
 }
 
-std::string readText(const fs::path& file, std::uint64_t most, std::string_view advice) {
-    const auto refuseSize = [&] {
-        refuseFile(file, ":1", fmt::format("the file has more than {} MiB", most >> 20), advice);
-    };
-    std::error_code unknown;
-    if (const std::uint64_t bytes = fs::file_size(file, unknown); !unknown && bytes > most) refuseSize();
+std::string readBytes(const fs::path& file, std::uint64_t most, std::string_view advice) {
+    return readPieces(file, most, advice, false);
+}
 
-    // Devices and pipes do not say how long they are.
-    std::ifstream stream{file, std::ios::binary};
-    std::string text;
-    std::array<char, 1 << 16> piece;
-    while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
-        text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > most) refuseSize();
-        if (const void* zero = std::memchr(piece.data(), 0, static_cast<std::size_t>(stream.gcount())))
-            refuseZero(file, text,
-                       text.size() -
-                           static_cast<std::size_t>(stream.gcount() - (static_cast<const char*>(zero) - piece.data())));
-    }
-    if (stream.bad() || !stream.eof())
-        throw std::runtime_error(fmt::format("{}: read: {}", file.string(), std::strerror(errno)));
+std::string readText(const fs::path& file, std::uint64_t most, std::string_view advice) {
+    std::string text = readPieces(file, most, advice, true);
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     return text;
 }

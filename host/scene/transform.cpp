@@ -59,9 +59,14 @@ Transform::Transform(const Reader& steps) {
     const std::size_t many = 1000;
     for (const Reader& step : steps.elements(0, many, "an array of steps, [{\"translate\": [x, y, z]}, ...]"))
         matrix = readStep(step) * matrix;
-    if (!(orthogonality(dmat3{matrix}) > 1e-12)) // false for NaN as well
+    if (isSingular(matrix))
         steps.fail("the transform is singular: it flattens the shape or overflows",
                    "let it keep the three dimensions apart");
+}
+
+bool Transform::isSingular(const dmat4& affine) {
+    const dvec4 sum = affine[0] + affine[1] + affine[2] + affine[3];
+    return !(orthogonality(dmat3{affine}) > 1e-12) || !std::isfinite(sum.x + sum.y + sum.z); // also for NaN
 }
 
 dvec3 Transform::point(dvec3 p) const { return dvec3{matrix * dvec4{p, 1}}; }

@@ -5,7 +5,7 @@
 
 namespace vkpm {
 
-/// Looks at the scene file and at the meshes that it names.
+/// Looks at the scene file and at the meshes and imports that it names, buffers of these included.
 class SceneWatch {
 public:
     explicit SceneWatch(std::filesystem::path scene);
@@ -20,7 +20,7 @@ private:
         std::uintmax_t bytes;
         bool operator==(const Stamp&) const = default;
     };
-    void lookForMeshes();
+    void lookForFiles(const std::filesystem::path& file);
 
     std::filesystem::path scene;
     std::map<std::filesystem::path, Stamp> stamps;

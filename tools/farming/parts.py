@@ -8,6 +8,7 @@ import subprocess
 from collections.abc import Collection
 from itertools import pairwise
 from pathlib import Path
+from urllib.parse import unquote
 
 DEFAULT_PASSES = 16  # of vkpm, where neither option nor scene say how many
 
@@ -19,18 +20,41 @@ def digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
+def content_of(file: Path) -> dict:
+    """The JSON of a scene, a .gltf or a .glb; empty where it cannot be read."""
+    try:
+        data = file.read_bytes()
+        if data[:4] == b"glTF":
+            data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
+        content = json.loads(data)
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def named_files(file: Path) -> list[Path]:
+    """The files that a scene or a model names, and those that these name: meshes, imports and buffers."""
+    content = content_of(file)
+    lists = [content.get(key) for key in ("shapes", "buffers")]
+    values = [value for some in lists if isinstance(some, list) for value in some] + [content.get("import")]
+    names = [value.get("file", value.get("uri")) if isinstance(value, dict) else value for value in values]
+    files = []
+    for name in names:
+        if isinstance(name, str) and not name.startswith("data:"):
+            named = Path(os.path.abspath(file.parent / unquote(name)))
+            models = named.suffix.lower() in (".gltf", ".glb") and file.suffix.lower() not in (".gltf", ".glb")
+            files += [named, *(named_files(named) if models else [])]
+    return files
+
+
 class Scene:
     """A scene's files by their names below one folder; what cannot be read is left out, and vkpm will say so."""
 
     def __init__(self, path: Path):
         path = Path(os.path.abspath(path))
-        try:
-            scene = json.loads(path.read_bytes())
-            meshes = [shape["file"] for shape in scene["shapes"] if "file" in shape]
-            passes = scene.get("settings", {}).get("passes", DEFAULT_PASSES)
-        except (OSError, ValueError, LookupError, TypeError, AttributeError):
-            meshes, passes = [], DEFAULT_PASSES
-        files = [path, *(Path(os.path.abspath(path.parent / mesh)) for mesh in meshes if isinstance(mesh, str))]
+        settings = content_of(path).get("settings")
+        passes = settings.get("passes") if isinstance(settings, dict) else None
+        files = [path, *named_files(path)]
         root = os.path.commonpath([file.parent for file in files])
         self.name = os.path.relpath(path, root)
         self.files = {os.path.relpath(file, root): file.read_bytes() for file in files if file.is_file()}
