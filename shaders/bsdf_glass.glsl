@@ -13,7 +13,7 @@ Scattering sampleGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
     if (u < fresnel(schlick, eta, cosI)) return reflectAbout(d, n, vec3(1.0));
     float cosT = sqrt(max(0.0, refractedCosine2(eta, cosI)));
     vec3 direction = normalize((d + cosI * n) / eta - cosT * n);
-    return Scattering(direction, hasTint ? m.color : vec3(1.0), n, 1.0 / (eta * eta));
+    return Scattering(direction, hasTint ? m.color : vec3(1.0), n, 1.0 / (eta * eta), 0.0);
 }
 
 #endif

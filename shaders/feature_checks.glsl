@@ -18,7 +18,7 @@ void requireLight(DeviceScene scene, Light light) {
 void requireSurface(DeviceScene scene, uint primitive, Material material) {
     if (!checksFeatures) return;
     bool triangle = primitive < scene.triangleCount;
-    bool glass = material.kind == MATERIAL_GLASS;
+    bool glass = (GLASS_KINDS >> material.kind & 1u) != 0u;
     require(scene, triangle, hasTriangles, id_hasTriangles);
     require(scene, !triangle, hasSpheres, id_hasSpheres);
     require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals,

@@ -17,11 +17,15 @@ struct LightSample {
     float inversePdf;
 };
 
+// The solid angle that a point stands for among points that are uniform over the area of the light.
+float inversePdfByArea(Light light, vec3 normal, vec3 toLight) {
+    float distance2 = dot(toLight, toLight);
+    return light.area * abs(dot(toLight, normal)) * inversesqrt(distance2) / distance2;
+}
+
 // The sample of a point that was chosen uniformly over the area of the light.
 LightSample sampleByArea(Light light, LightPoint point, vec3 origin) {
-    vec3 toLight = point.position - origin;
-    float distance2 = dot(toLight, toLight);
-    return LightSample(point, light.area * abs(dot(toLight, point.normal)) * inversesqrt(distance2) / distance2);
+    return LightSample(point, inversePdfByArea(light, point.normal, point.position - origin));
 }
 
 // The light whose part of the unit interval holds u.

@@ -25,4 +25,15 @@ LightSample sampleRectangle(Light light, vec3 origin, vec2 u) {
     return flatSample(light, sampleSphericalTriangle(t, part, u.y), beyond, 2.0 * whole);
 }
 
+// The solid angle that a point of the light stands for among the samples from `origin`: one over their density.
+float inversePdfRectangle(Light light, vec3 origin, LightPoint point) {
+    if (!isNear(light, origin)) return inversePdfByArea(light, point.normal, point.position - origin);
+    vec3 toA = light.a - origin;
+    vec3 normal = cross(light.u, light.v);
+    Corner b = cornerAt(toA + light.u), d = cornerAt(toA + light.v);
+    vec3 diagonal = sumOf(b, d);
+    return 2.0 * (sphericalTriangle(cornerAt(toA), b, d, diagonal, normal).angle +
+                  sphericalTriangle(cornerAt(toA + light.u + light.v), b, d, diagonal, normal).angle);
+}
+
 #endif

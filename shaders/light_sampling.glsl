@@ -31,4 +31,13 @@ LightSample sampleLight(Light light, vec3 origin, vec2 u) {
 }
 #undef X
 
+// The solid angle that a point of a light stands for among those that sampleLight chooses.
+#define X(id, NAME, name, words)                                                                                       \
+    if (isNextKind(light, id)) return inversePdf##name(light, origin, point);
+float inversePdfOfLight(Light light, vec3 origin, LightPoint point) {
+    LIGHTS(X)
+    return 0.0;
+}
+#undef X
+
 #endif

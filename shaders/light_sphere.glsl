@@ -31,4 +31,12 @@ LightSample sampleSphere(Light light, vec3 origin, vec2 u) {
     return sampleByArea(light, emitSphere(light, u), origin);
 }
 
+// The solid angle that a point of the light stands for among the samples from `origin`: one over their density.
+float inversePdfSphere(Light light, vec3 origin, LightPoint point) {
+    vec3 toCenter = light.a - origin;
+    float distance2 = dot(toCenter, toCenter);
+    if (distance2 > light.u.x * light.u.x) return 2.0 * PI * coneHeight(light.u.x, distance2);
+    return inversePdfByArea(light, point.normal, point.position - origin);
+}
+
 #endif

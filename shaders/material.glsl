@@ -3,40 +3,150 @@
 #define MATERIAL_GLSL
 #include "bsdf_diffuse.glsl"
 #include "bsdf_glass.glsl"
+#include "bsdf_metal.glsl"
 #include "bsdf_mirror.glsl"
+#include "bsdf_plastic.glsl"
+#include "bsdf_polished.glsl"
+#include "bsdf_rough_glass.glsl"
 #include "common.glsl"
+#include "lobes.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"
 
-// Whether a scene has materials with a diffuse lobe, and with others.
-const bool hasDiffuse = (materialKinds & DIFFUSE_KINDS) != 0u;
-const bool hasSpecular = (materialKinds & SPECULAR_KINDS) != 0u;
+bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
 
-// Whether a material has a diffuse lobe.
-bool isDiffuse(Material m) { return hasDiffuse && (!hasSpecular || m.kind == MATERIAL_DIFFUSE); }
+// Whether a material has a diffuse lobe, and whether it has another.
+bool isDiffuse(Material m) {
+    if (!hasDiffuse || !hasSpecular) return hasDiffuse;
+    return m.kind == MATERIAL_DIFFUSE || (hasLayered && (LAYERED_KINDS >> m.kind & 1u) != 0u && m.rest != NONE);
+}
 
-// Whether a material is of a kind that has other lobes, asked in the order of the list: the last one that a scene has
-// needs no look.
-bool isNextKind(Material m, uint kind) {
-    const uint kinds = materialKinds & SPECULAR_KINDS;
+bool isSpecular(Material m) { return hasSpecular && (hasLayered ? m.kind != MATERIAL_DIFFUSE : !isDiffuse(m)); }
+
+// Whether a material is of a kind, of some of which it is one, asked in the order of the list: the last one that a
+// scene has needs no look.
+bool isNextKind(Material m, uint kind, uint of) {
+    uint kinds = materialKinds & of;
     return (kinds & 1u << kind) != 0u && (kinds >> kind == 1u || m.kind == kind);
 }
 
-// One event of a ray of direction d about the normal n, which is on its side.
+// One event of a ray of direction d about the normal n, which is on its side, in one direction, by the choice u.
 #define X(id, NAME, name, lobes, words)                                                                                \
-    if (isNextKind(m, id)) return sample##name(m, d, n, leaving, u);
+    if (isNextKind(m, id, DELTA_KINDS)) return sample##name(m, d, n, leaving, u);
 Scattering scatterAbout(Material m, vec3 d, vec3 n, bool leaving, float u) {
-    MATERIALS(X)
+    DELTA_MATERIALS(X)
     return sampleDiffuse(m, d, n, leaving, u);
 }
 #undef X
 
-// Specular scattering of a ray of direction d. About the shading normal, unless that would put the ray on the
+// The same by a glossy lobe: the choice by u.x, a direction by the others.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return sample##name(m, d, n, leaving, u);
+Scattering sampleGlossy(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
+    GLOSSY_MATERIALS(X)
+    return sampleDiffuse(m, d, n, leaving, u.x);
+}
+#undef X
+
+// What a glossy lobe sends from wi to wo, times the cosine of wi; n is the normal on their side.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return evaluate##name(m, leaving, n, wo, wi);
+vec3 evaluateGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
+    GLOSSY_MATERIALS(X)
+    return vec3(0.0);
+}
+#undef X
+
+// The density over solid angle with which a glossy lobe sends wo to wi.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return pdf##name(m, leaving, n, wo, wi);
+float pdfGlossy(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
+    GLOSSY_MATERIALS(X)
+    return 0.0;
+}
+#undef X
+
+// What a glossy lobe reflects of the light from a direction, or about as much.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return albedo##name(m, cosine, rest);
+vec3 glossyAlbedo(Material m, float cosine, float rest) {
+    GLOSSY_MATERIALS(X)
+    return vec3(1.0);
+}
+#undef X
+
+// The colour of the diffuse lobe of a layered material.
+#define X(id, NAME, name, lobes, words)                                                                                \
+    if (isNextKind(m, id, GLOSSY_KINDS)) return base##name(m, rest);
+vec3 diffuseBase(Material m, float rest) {
+    GLOSSY_MATERIALS(X)
+    return m.color;
+}
+#undef X
+
+// The part of light at a cosine that the glossy lobe leaves.
+float restAt(DeviceScene scene, Material m, float cosine) {
+    if (m.rest == NONE) return 0.0;
+    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
+    uint i = min(uint(x), REST_STEPS - 1u), row = m.rest * REST_ROW;
+    return mix(floatPtr(scene.rests).at[row + i], floatPtr(scene.rests).at[row + i + 1u], x - float(i));
+}
+
+float meanRest(DeviceScene scene, Material m) { return floatPtr(scene.rests).at[m.rest * REST_ROW + REST_MEAN]; }
+
+// The diffuse lobe is separable, so that photon maps need no directions: base x rest(out) x rest(in) / (pi mean rest).
+// This is the factor of the direction in which the lobe is seen, with the base; it is also the lobe's albedo there.
+vec3 diffuseAlbedo(DeviceScene scene, Material m, float cosine) {
+    if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return m.color;
+    return diffuseBase(m, meanRest(scene, m)) * restAt(scene, m, cosine);
+}
+
+// And this of the direction from which the light comes; its mean by the cosine law is 1.
+float diffuseArrival(DeviceScene scene, Material m, float cosine) {
+    if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return 1.0;
+    return restAt(scene, m, cosine) / meanRest(scene, m);
+}
+
+// The same of the material of a primitive.
+float diffuseArrivalAt(DeviceScene scene, uint primitive, float cosine) {
+    if (!hasLayered) return 1.0;
+    return diffuseArrival(scene, MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material],
+                          cosine);
+}
+
+// The normal about which light of direction d is scattered, on its side: the shading normal where d is on its side too.
+vec3 scatteringNormal(Surface s, vec3 d) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 shading = leaving ? -s.shading : s.shading;
+    if (hasSmoothNormals && dot(d, shading) < 0.0) return shading;
+    return leaving ? -s.normal : s.normal;
+}
+
+// Probability with which a path at a surface with both lobes takes the glossy one: by what they reflect, and at least a
+// tenth of the paths for each.
+float glossyProbability(DeviceScene scene, Material m, float cosine) {
+    float glossy = maxComponent(glossyAlbedo(m, cosine, restAt(scene, m, cosine)));
+    float diffuse = maxComponent(diffuseAlbedo(scene, m, cosine));
+    return clamp(glossy / max(glossy + diffuse, 1e-30), 0.1, 0.9);
+}
+
+// Scattering of a ray of direction d by a glossy lobe; what comes out on the other side of the geometric normal than of
+// the shading normal is lost.
+Scattering scatterGlossy(Material m, Surface s, vec3 d, vec3 u) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 n = scatteringNormal(s, d);
+    Scattering event = sampleGlossy(m, d, n, leaving, u);
+    if (hasSmoothNormals && dot(event.direction, n) > 0.0 != dot(event.direction, leaving ? -s.normal : s.normal) > 0.0)
+        event.weight = vec3(0.0);
+    return event;
+}
+
+// Scattering of a ray of direction d in one direction. About the shading normal, unless that would put the ray on the
 // side of the geometric normal where the other kind of event belongs; then about the geometric one.
-Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
+Scattering scatterDelta(Material m, Surface s, vec3 d, float u) {
     bool leaving = dot(d, s.normal) > 0.0;
     vec3 geometric = leaving ? -s.normal : s.normal;
     if (!hasSmoothNormals) return scatterAbout(m, d, geometric, leaving, u);
@@ -49,6 +159,12 @@ Scattering scatterSpecular(Material m, Surface s, vec3 d, float u) {
     return scatterAbout(m, d, geometric, leaving, u);
 }
 
+// Scattering by any lobe but the diffuse one.
+Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
+    if (isGlossy(m)) return scatterGlossy(m, s, d, u);
+    return scatterDelta(m, s, d, u.x);
+}
+
 // What a photon's flux is multiplied by since shading normals are not the geometric ones (Veach 1997, eq. 5.19);
 // wi against its direction of arrival, wo along that of departure, for a specular event about n.
 float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
@@ -58,6 +174,23 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
 
 // Specular vertices of a path since its last diffuse one, up to 63, and its flags after one more.
 uint specularRun(uint flags) { return (flags & PATH_SPECULARS) / PATH_SPECULAR; }
+
+// Diffuse vertices of a path from the eye.
+uint diffuseCount(uint flags) {
+    return hasGlossy ? (flags & ~PATH_PDF_MASK) >> PATH_DIFFUSE_SHIFT : flags >> PATH_DIFFUSE_SHIFT;
+}
+
+// A density in the ten bits that flags have for it: an exponent and two digits. Both samplers of a light are weighted
+// by this same number, so that its rounding moves no mean; 0 stands for an event of one direction alone.
+uint packPdf(float pdf) { return pdf > 0.0 ? max(floatBitsToUint(pdf) >> 21, 1u) : 0u; }
+
+float unpackPdf(uint bits) { return uintBitsToFloat(bits << 21); }
+
+uint withPdf(uint flags, float pdf) {
+    return hasGlossy ? (flags & ~PATH_PDF_MASK) | packPdf(pdf) << PATH_PDF_SHIFT : flags;
+}
+
+float pdfOf(uint flags) { return hasGlossy ? unpackPdf(flags >> PATH_PDF_SHIFT) : 0.0; }
 
 uint afterSpecular(uint flags) { return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR; }
 

@@ -5,6 +5,7 @@
 #include "directions.glsl"
 #include "feature_checks.glsl"
 #include "light.glsl"
+#include "lobes.glsl"
 #include "sampling.glsl"
 #include "shared_scene.h"
 
@@ -88,22 +89,29 @@ Aim aimAtLit(DeviceScene scene, LightPoint point, vec2 u) {
     return aim;
 }
 
-// Chooses a target in proportion to its solid angle and a direction within it. The density is that of the mixture, so a
-// direction covered by several targets counts once; the weight is 0 if it is below the horizon.
+// What a target's material sends on to others, or about as much: a coat that reflects little gets few photons.
+float targetWeight(DeviceScene scene, uint target) {
+    return hasLayered ? floatPtr(scene.targetWeights).at[target] : 1.0;
+}
+
+float targetShare(DeviceScene scene, uint target, vec3 point) {
+    return targetWeight(scene, target) * targetSolidAngle(TargetPtr(scene.targets).at[target], point);
+}
+
+// Chooses a target in proportion to its solid angle and its weight, and a direction within it. The density is that of
+// the mixture, so a direction covered by several targets counts once; the weight is 0 if it is below the horizon.
 Aim aimAtTargets(DeviceScene scene, LightPoint point, vec2 u, float choice) {
     if (scene.targetCount == 0u) return Aim(point.position, point.normal, 0.0, false);
     float total = 0.0;
-    for (uint i = 0u; i < scene.targetCount; i++)
-        total += targetSolidAngle(TargetPtr(scene.targets).at[i], point.position);
+    for (uint i = 0u; i < scene.targetCount; i++) total += targetShare(scene, i, point.position);
     uint chosen = 0u;
-    float left = choice * total - targetSolidAngle(TargetPtr(scene.targets).at[0], point.position);
-    while (left >= 0.0 && chosen + 1u < scene.targetCount)
-        left -= targetSolidAngle(TargetPtr(scene.targets).at[++chosen], point.position);
+    float left = choice * total - targetShare(scene, 0u, point.position);
+    while (left >= 0.0 && chosen + 1u < scene.targetCount) left -= targetShare(scene, ++chosen, point.position);
 
     Aim aim = aimAtTarget(scene, TargetPtr(scene.targets).at[chosen], point, u);
     float density = 0.0;
     for (uint i = 0u; i < scene.targetCount; i++)
-        density += targetDensity(TargetPtr(scene.targets).at[i], point, aim, i == chosen);
+        density += targetWeight(scene, i) * targetDensity(TargetPtr(scene.targets).at[i], point, aim, i == chosen);
     float cosine = dot(aim.direction, point.normal);
     aim.weight = cosine > 0.0 ? cosine / PI * total / density : 0.0;
     return aim;

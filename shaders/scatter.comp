@@ -34,8 +34,9 @@ bool russianRoulette(inout Path path, vec3 color, float probability, float u) {
 
 uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface surface, Sampler s) {
     vec2 u = sample2(s, 4u * bounce + 5u);
+    vec2 place = isGlossy(material) ? sample2(s, 4u * bounce + 6u) : vec2(0.0);
     uint run = specularRun(path.flags);
-    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
     path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive,
                 afterSpecular(path.flags));
@@ -95,6 +96,46 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
     return OUTCOME_GOES_ON;
 }
 
+// At a surface with a diffuse lobe and a glossy one. The photon arrives at the diffuse one before it takes either, or
+// neither, in proportion to what they reflect; photons of caustics take the glossy one alone, and have to arrive by
+// one.
+uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface surface, Sampler s, out Photon photon) {
+    DeviceScene scene = args.scene.at[0];
+    bool behind = dot(path.direction, surface.normal) > 0.0;
+    vec3 geometric = behind ? -surface.normal : surface.normal;
+    float cosine = -dot(path.direction, scatteringNormal(surface, path.direction));
+    bool aimed = args.caustic != 0u && specularRun(path.flags) == 0u;
+    photon = Photon(vec3(0.0), vec3(0.0), 0u);
+    Path base = path;
+    if (!aimed) {
+        photon = photonAt(base, surface, geometric, 0.0);
+        photon.color *= diffuseArrival(scene, material, cosine);
+        if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
+    }
+    vec3 albedo = diffuseAlbedo(scene, material, cosine);
+    float diffuse = args.caustic != 0u ? 0.0 : maxComponent(albedo);
+    float glossy = aimed ? 1.0 : maxComponent(glossyAlbedo(material, cosine, restAt(scene, material, cosine)));
+    if (specularRun(path.flags) >= 32u) glossy *= 0.9;
+
+    float u = sample2(s, 4u * bounce + 5u).x;
+    vec2 place = sample2(s, 4u * bounce + 6u);
+    if (u < glossy) {
+        Scattering event = scatterGlossy(material, surface, path.direction, vec3(0.0, place));
+        float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+        path =
+            Path(leave(surface, event.direction), event.direction, path.throughput * event.weight * correction / glossy,
+                 0.0, surface.primitive, afterSpecular(path.flags));
+        return maxComponent(path.throughput) > 0.0 ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
+    }
+    if (u >= glossy + diffuse) return OUTCOME_ABSORBED;
+    vec3 direction = toWorld(cosineHemisphere(place), geometric);
+    float outgoing = dot(direction, scatteringNormal(surface, -direction));
+    vec3 color = base.throughput * albedo * (diffuseArrival(scene, material, outgoing) / diffuse);
+    path = Path(offsetPoint(surface.position, surface.magnitude, geometric), direction, color, 0.0, surface.primitive,
+                path.flags & ~PATH_SPECULARS);
+    return maxComponent(color) > 0.0 ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
+}
+
 // Moves the photon on; returns its outcome, and whether it belongs into the map, as `deposit`.
 uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool arrives, out PhotonDeposit deposit) {
     DeviceScene scene = args.scene.at[0];
@@ -106,9 +147,16 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
+    if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     uint outcome;
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
-    if (!isDiffuse(material)) {
+    if (hasLayered && material.kind != MATERIAL_DIFFUSE && isDiffuse(material)) {
+        uint index = path.flags >> PATH_DIFFUSE_SHIFT;
+        Photon photon;
+        outcome = arriveAtLayers(bounce, path, material, surface, s, photon);
+        arrives = maxComponent(photon.color) > 0.0;
+        deposit = PhotonDeposit(photon, slot, index);
+    } else if (!isDiffuse(material)) {
         outcome = scatterAtSpecular(bounce, path, material, surface, s);
     } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
         return OUTCOME_ESCAPED; // aimed at a specular shape, but not one that it hit

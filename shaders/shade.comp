@@ -44,7 +44,7 @@ uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) !=
 
 // Where light of a layer that a path finds is added.
 uint columnOf(Path path, uint layer) {
-    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && path.flags >> PATH_DIFFUSE_SHIFT > 0u;
+    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u;
     return gathering ? COLUMN_GATHERED : layerColumn(layer);
 }
 
@@ -61,19 +61,22 @@ struct Vertex {
 
 // Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
 // have the direct part, and the photon integrator has the rest in its maps.
-void addEmission(inout Vertex vertex, Path path, Light light, vec3 normal) {
-    uint diffuse = path.flags >> PATH_DIFFUSE_SHIFT;
+void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surface) {
+    Light light = LightPtr(scene.lights).at[surface.light];
+    uint diffuse = diffuseCount(path.flags);
     if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     vertex.emissionColumn = layerColumn(layer);
-    vertex.emission = path.throughput * emittedRadiance(light, normal, -path.direction);
+    vertex.emission = path.throughput * emittedRadiance(light, surface.normal, -path.direction);
+    if (hasGlossy)
+        vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
 }
 
 // Asks for one light sample.
 void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
                       float bulge, vec3 weight, BounceSampler s) {
-    uint layer = layerOf(path, path.flags >> PATH_DIFFUSE_SHIFT == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
+    uint layer = layerOf(path, diffuseCount(path.flags) == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
@@ -103,35 +106,56 @@ bool continuesAfterDiffuse(Path path) {
     if (activeIntegrator() == INTEGRATOR_DIRECT) return false;
     if ((path.flags & PATH_EYE_SPECULAR) != 0u) return hasSpecularLayer;
     return hasIndirectLayer ||
-           (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && path.flags >> PATH_DIFFUSE_SHIFT == 0u);
+           (activeIntegrator() == INTEGRATOR_PATH && hasCausticLayer && diffuseCount(path.flags) == 0u);
 }
 
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
-void bounceDiffuse(inout Vertex vertex, Path path, Surface surface, vec3 normal, vec3 shading, float bulge, vec3 albedo,
-                   BounceSampler s) {
-    uint diffuse = (path.flags >> PATH_DIFFUSE_SHIFT) + 1u;
+void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
+                   float bulge, vec3 albedo, BounceSampler s) {
+    uint diffuse = (diffuseCount(path.flags)) + 1u;
     float survival = diffuse > 2u ? maxComponent(albedo) : 1.0;
     if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return;
     vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
     if (!departs(direction, normal, bulge)) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
+    float arrival = diffuseArrivalAt(scene, surface.primitive, dot(direction, shading));
     vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
-                       path.throughput * albedo / survival, 0.0, surface.primitive, flags);
+                       path.throughput * albedo / survival * arrival, 0.0, surface.primitive, flags);
     vertex.queues |= 1u << QUEUE_CONTINUE;
 }
 
-void scatterAtSpecular(inout Vertex vertex, Path path, Material material, Surface surface, BounceSampler s) {
+// A light sample for the glossy lobe, unless the maps have that light.
+void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
+                            BounceSampler s) {
+    uint diffuse = diffuseCount(path.flags);
+    if (activeIntegrator() == INTEGRATOR_PHOTON_MAP || (diffuse > 0u && activeIntegrator() != INTEGRATOR_PATH)) return;
+    uint layer = diffuse == 0u ? LAYER_SPECULAR : layerOf(path, diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    if (!hasLayer(layer)) return;
+    vertex.shadowRay =
+        sampleDirectGlossy(scene, surface, material, scatteringNormal(surface, path.direction), -path.direction,
+                           path.throughput, layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
+}
+
+void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
+                       BounceSampler s) {
     vec2 u = bounceSample(s, 0u);
-    Scattering event = scatterSpecular(material, surface, path.direction, u.x);
+    vec2 place = vec2(0.0);
+    if (isGlossy(material)) {
+        requestGlossyShadowRay(vertex, scene, path, material, surface, s);
+        u.y = bounceSample(s, 2u).x;
+        place = bounceSample(s, 3u);
+    }
+    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
     uint run = specularRun(path.flags);
     float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
     if (u.y >= survival) return;
-    uint flags = afterSpecular(path.flags) | (path.flags >> PATH_DIFFUSE_SHIFT == 0u ? PATH_EYE_SPECULAR : 0u);
+    uint flags = afterSpecular(path.flags) | (diffuseCount(path.flags) == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
     if (!(maxComponent(throughput) > 0.0)) return;
     vertex.path = Path(leave(surface, event.direction), event.direction, throughput, path.distanceSinceDiffuse,
-                       surface.primitive, flags);
+                       surface.primitive, withPdf(flags, event.pdf));
     vertex.queues |= 1u << QUEUE_CONTINUE;
 }
 
@@ -140,7 +164,7 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
     vec3 normal = behind ? -surface.normal : surface.normal;
     vec3 shading = behind ? -surface.shading : surface.shading;
     float bulge = behind ? -surface.bulge : surface.bulge;
-    bool first = path.flags >> PATH_DIFFUSE_SHIFT == 0u;
+    bool first = diffuseCount(path.flags) == 0u;
     bool maps = activeIntegrator() == INTEGRATOR_PHOTON_MAP, gathers = activeIntegrator() == INTEGRATOR_PHOTON;
     bool isFar = gathers && !first && path.distanceSinceDiffuse >= args.nearDistance;
     bool asksCaustics = !isFar && (maps || gathers) && showsCaustics();
@@ -157,11 +181,11 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
         return;
     }
     requestShadowRay(vertex, scene, path, surface, normal, shading, bulge, weight, s);
-    if (continuesAfterDiffuse(path)) bounceDiffuse(vertex, path, surface, normal, shading, bulge, albedo, s);
+    if (continuesAfterDiffuse(path)) bounceDiffuse(vertex, scene, path, surface, normal, shading, bulge, albedo, s);
 }
 
 // Whether light that is found beyond a specular vertex has a layer to go to.
-bool continuesAfterSpecular(Path path) { return path.flags >> PATH_DIFFUSE_SHIFT > 0u || hasSpecularLayer; }
+bool continuesAfterSpecular(Path path) { return diffuseCount(path.flags) > 0u || hasSpecularLayer; }
 
 // A path of a slot at the hit of its ray. The first surface that the eye sees goes to the samples.
 Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
@@ -175,6 +199,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
     if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
+    if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     path.distanceSinceDiffuse += hit.t;
     if (bounce == 0u) {
         if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
@@ -192,12 +217,19 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
         vertex.queues = 1u << QUEUE_CONTINUE;
         return vertex;
     }
-    if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
-        addEmission(vertex, path, LightPtr(scene.lights).at[surface.light], surface.normal);
+    if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP) addEmission(vertex, scene, path, surface);
 
     BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
-    if (isDiffuse(material)) shadeDiffuse(vertex, scene, path, surface, material.color, s);
-    else if (continuesAfterSpecular(path)) scatterAtSpecular(vertex, path, material, surface, s);
+    bool diffuse = isDiffuse(material);
+    float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
+    if (hasLayered && diffuse && isSpecular(material)) {
+        // One of the lobes, and a weight that makes up for the choice.
+        float glossy = continuesAfterSpecular(path) ? glossyProbability(scene, material, cosine) : 0.0;
+        diffuse = bounceSample(s, 2u).y >= glossy;
+        path.throughput /= diffuse ? 1.0 - glossy : glossy;
+    }
+    if (diffuse) shadeDiffuse(vertex, scene, path, surface, diffuseAlbedo(scene, material, cosine), s);
+    else if (continuesAfterSpecular(path)) scatterAtSpecular(vertex, scene, path, material, surface, s);
     return vertex;
 }
 

@@ -9,12 +9,25 @@ SHARED_BEGIN
 // Lobes: parts of the light that a surface scatters. Each event of a path has the label of the lobe that it took.
 const uint LOBE_DIFFUSE = 1u; // D: photons are gathered there
 const uint LOBE_DELTA = 2u;   // S: light goes on in one direction
+const uint LOBE_GLOSSY = 4u;  // G: about one direction
 
 // id, constant, name of functions, lobes that it may have, in words
 #define MATERIALS(X)                                                                                                   \
     X(0, DIFFUSE, Diffuse, LOBE_DIFFUSE, "diffuse surfaces") /* Lambert, both sides */                                 \
-    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")              /* perfect, both sides */                                 \
-    X(2, GLASS, Glass, LOBE_DELTA, "glass")                  /* smooth, its inside against the normal */
+    DELTA_MATERIALS(X)                                                                                                 \
+    GLOSSY_MATERIALS(X)
+
+// Those that send light in one direction.
+#define DELTA_MATERIALS(X)                                                                                             \
+    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")            /* perfect, both sides */                                   \
+    X(2, GLASS, Glass, LOBE_DELTA, "glass")                /* smooth, its inside against the normal */                 \
+    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal") /* a mirror by Schlick, both sides */
+
+// Those with a glossy lobe, which light samples meet too.
+#define GLOSSY_MATERIALS(X)                                                                                            \
+    X(4, METAL, Metal, LOBE_GLOSSY | LOBE_DIFFUSE, "rough metal")                                                      \
+    X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")                                                      \
+    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")
 
 // id, constant, name of functions, in words
 #define LIGHTS(X)                                                                                                      \
@@ -30,12 +43,18 @@ LIGHTS(X)
 #undef X
 
 // Bits of the kinds of materials that may have a lobe.
-#define X(id, NAME, name, lobes, words) | ((lobes & LOBE_DIFFUSE) != 0u ? 1u << id : 0u)
+#define X(id, NAME, name, lobes, words) | (((lobes)&LOBE_DIFFUSE) != 0u ? 1u << id : 0u)
 const uint DIFFUSE_KINDS = 0u MATERIALS(X);
 #undef X
-#define X(id, NAME, name, lobes, words) | ((lobes & LOBE_DELTA) != 0u ? 1u << id : 0u)
-const uint SPECULAR_KINDS = 0u MATERIALS(X);
+#define X(id, NAME, name, lobes, words) | (((lobes)&LOBE_GLOSSY) != 0u ? 1u << id : 0u)
+const uint GLOSSY_KINDS = 0u MATERIALS(X);
 #undef X
+#define X(id, NAME, name, lobes, words) | (((lobes)&LOBE_DELTA) != 0u ? 1u << id : 0u)
+const uint DELTA_KINDS = 0u MATERIALS(X);
+#undef X
+const uint SPECULAR_KINDS = DELTA_KINDS | GLOSSY_KINDS;
+const uint GLASS_KINDS = 1u << MATERIAL_GLASS | 1u << MATERIAL_ROUGH_GLASS;
+const uint LAYERED_KINDS = DIFFUSE_KINDS & SPECULAR_KINDS;
 
 #define X(id, NAME, name, words) | 1u << id
 const uint ALL_LIGHTS = 0u LIGHTS(X);

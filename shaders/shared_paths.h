@@ -29,13 +29,15 @@ struct Path {
     vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
     float distanceSinceDiffuse; // since the last diffuse vertex
     uint from;                  // primitive that the ray leaves, or NONE
-    uint flags;                 // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT
+    uint flags;                 // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT on
 };
-const uint PATH_EYE_SPECULAR = 1u;               // eye: the first vertex was specular
-const uint PATH_SPECULAR = 2u;                   // one specular vertex since the last diffuse one
+const uint PATH_EYE_SPECULAR = 1u;               // eye: the event at the first vertex was specular or glossy
+const uint PATH_SPECULAR = 2u;                   // one specular or glossy event since the last diffuse one
 const uint PATH_SPECULARS = 63u * PATH_SPECULAR; // all of these that are counted
 const uint PATH_THROUGH = 1u << 7;               // goes through a smooth mesh, see terminator.glsl
 const uint PATH_DIFFUSE_SHIFT = 8u;
+const uint PATH_PDF_SHIFT = 22u; // eye, of scenes with glossy lobes: density of the last event, see packPdf
+const uint PATH_PDF_MASK = 0xffc00000u;
 BUFFER(Path)
 
 /// Where a ray ends: distance in units of its direction's length, primitive or NONE, barycentric weights of b and c.

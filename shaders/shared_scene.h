@@ -64,11 +64,19 @@ BUFFER(Normals)
 
 struct Material {
     uint kind;    // MATERIAL_...
-    vec3 color;   // albedo, reflectance, or factor at each refraction, within [0, 1]
-    float ior;    // glass: index inside / index outside
+    vec3 color;   // albedo, reflectance (of metal at normal incidence), or factor at each refraction, within [0, 1]
+    float ior;    // glass: index inside / index outside; plastic: of its coat
     uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
+    float alpha;  // of a glossy lobe: roughness^2
+    uint rest;    // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
 };
 BUFFER(Material)
+
+// What a glossy lobe leaves to the diffuse one, 1 - E(cos) where E is what the glossy one reflects: a row has the
+// values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law.
+const uint REST_STEPS = 32u;
+const uint REST_MEAN = REST_STEPS + 1u;
+const uint REST_ROW = REST_STEPS + 2u;
 
 /// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
 struct Light {
@@ -111,9 +119,11 @@ struct DeviceScene {
     ADDRESS(float) lightCdf;  // of photons: upper ends, the last is 1
     ADDRESS(float) directCdf; // of light samples, likewise
     ADDRESS(Target) targets;
-    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;            // about all that light falls upon
-    Target near;           // about all but far lights
+    ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
+    ADDRESS(float) rests;         // rows of REST_ROW numbers
+    ADDRESS(uint) missing;        // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit;                   // about all that light falls upon
+    Target near;                  // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;

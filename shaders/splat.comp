@@ -51,8 +51,9 @@ bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
     if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
 
     float cosine = abs(dot(direction, surface.normal));
+    vec3 albedo = diffuseAlbedo(scene, material, -dot(direction, scatteringNormal(surface, direction)));
     float solidAngle = pixelSolidAngle(scene.camera, args.size, dot(direction, scene.camera.forward));
-    radiance = photon.color * material.color * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));
+    radiance = photon.color * albedo * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));
     return true;
 }
 

@@ -19,7 +19,9 @@ struct Contact {
 };
 
 bool isGlass(DeviceScene scene, uint id) {
-    return MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind == MATERIAL_GLASS;
+    uint kind = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind;
+    return kind == MATERIAL_GLASS ||
+           ((materialKinds & 1u << MATERIAL_ROUGH_GLASS) != 0u && kind == MATERIAL_ROUGH_GLASS);
 }
 
 float slackOf(DeviceScene scene, Ray ray, uint id) {

@@ -101,6 +101,22 @@ struct ScatterValues {
     float radianceScale;
 };
 
+struct GlossyCase {
+    Material material;
+    vec3 wo;
+    vec3 wi;
+    vec2 u;
+    float choice;
+};
+
+struct GlossyValues {
+    vec3 direction;
+    vec3 weight;
+    float pdf;
+    vec3 value; // times the cosine of wi
+    float pdfAt;
+};
+
 struct CorrectionCase {
     vec3 wi;
     vec3 wo;

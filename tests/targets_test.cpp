@@ -60,6 +60,7 @@ double bruteForce(const Aim& aim, int side = 1200) {
 std::vector<vec4> aimed(const Aim& aim, uint count, const char* kernel = "aim_at_targets") {
     Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
     scene.targets = aim.targets;
+    for (std::size_t i = 0; i < aim.targets.size(); i++) scene.targetWeights.push_back(1 / (1 + 3 * float(i)));
     scene.lit = aim.targets[0];
     const TestScene uploaded(scene);
     Random random(7);

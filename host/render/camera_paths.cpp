@@ -118,7 +118,7 @@ void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round)
     compaction.compact(recording, round + 1, round + 1 == rounds, progress);
 
     const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
-    if (!splits) castShadowRays(recording);
+    if (!splits || hasMaterials(features, GLOSSY_KINDS)) castShadowRays(recording);
     for (const PhotonMap& narrow : maps.narrow) queryPhotonMap(recording, QUEUE_CAUSTIC, narrow);
     queryPhotonMap(recording, QUEUE_CAUSTIC, maps.caustic);
     if (!splits) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);

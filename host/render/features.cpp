@@ -22,8 +22,9 @@ void askFor(uint layers, Features& features) {
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
-    return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS) &&
-           (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer);
+    const bool byGloss = settings.integrator == INTEGRATOR_PATH && hasMaterials(f, GLOSSY_KINDS) && f.hasCausticLayer;
+    return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS | GLOSSY_KINDS) &&
+           (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer || byGloss);
 }
 
 bool tracesLight(const Features& f, const Settings& settings) {
@@ -78,9 +79,9 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.materialKinds = features.lightKinds = 0;
     for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
     for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
-    const bool glass = hasMaterials(features, 1u << MATERIAL_GLASS);
+    const bool glass = hasMaterials(features, GLASS_KINDS);
     features.hasContact = glass && glassMayTouchOpaque(scene);
-    features.hasTint = anyMaterial([](const Material& m) { return m.kind == MATERIAL_GLASS && m.color != vec3(1); });
+    features.hasTint = anyMaterial([](const Material& m) { return isGlass(m) && m.color != vec3(1); });
     features.hasExactFresnel = glass && !settings.schlick;
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;

@@ -33,10 +33,12 @@ private:
     Buffer<Primitive> primitives;
     Buffer<Normals> normals;
     Buffer<Material> materials;
+    Buffer<float> rests;
     Buffer<Light> lights;
     Buffer<float> lightCdf;
     Buffer<float> directCdf;
     Buffer<Target> targets;
+    Buffer<float> targetWeights;
     Buffer<uint> missing;
 };
 

@@ -114,7 +114,7 @@ bool isWithinGlass(const Scene& scene, const GlassShape& shape, const Bounds& bo
     Bounds around;
     for (std::size_t i = 0; i < scene.primitives.size(); i++) {
         const Primitive& p = scene.primitives[i];
-        if ((i >= shape.first && i < shape.end) || scene.materials[p.material].kind != MATERIAL_GLASS) continue;
+        if ((i >= shape.first && i < shape.end) || !vkpm::isGlass(scene.materials[p.material])) continue;
         around = united(around, boxOf(p, i >= scene.triangleCount));
     }
     return glm::all(glm::lessThanEqual(around.low, box.low)) && glm::all(glm::greaterThanEqual(around.high, box.high));
@@ -176,7 +176,7 @@ bool glassMayTouchOpaque(const Scene& scene) {
     std::array<std::vector<Bounds>, 2> boxes; // of opaque triangles, of glass
     std::array<Bounds, 2> about;
     for (std::size_t i = 0; i < scene.triangleCount; i++) {
-        const bool isGlass = scene.materials[scene.primitives[i].material].kind == MATERIAL_GLASS;
+        const bool isGlass = vkpm::isGlass(scene.materials[scene.primitives[i].material]);
         boxes[isGlass].push_back(boxOf(scene.primitives[i], false));
         about[isGlass] = united(about[isGlass], boxes[isGlass].back());
     }

@@ -13,6 +13,8 @@ struct GlassShape {
     Bounds box{};
 };
 
+inline bool isGlass(const Material& material) { return (GLASS_KINDS >> material.kind & 1) != 0; }
+
 /// The box about a shape.
 Bounds boxOf(const Scene& scene, const GlassShape& shape);
 

@@ -81,7 +81,7 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
     std::map<std::string, uint> indices;
     for (const std::string& name : reader.keys()) {
         indices[name] = static_cast<uint>(scene.materials.size());
-        scene.materials.push_back(readMaterial(reader.at(name)));
+        scene.materials.push_back(readMaterial(reader.at(name), scene.rests));
     }
     return indices;
 }
@@ -117,7 +117,7 @@ ShapeLoader::Surface importedSurface(Import& import, uint index, Scene& scene,
     ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
-        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}));
+        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene.rests));
     } else if (scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
         surface.radiance = vec3{0};
     }

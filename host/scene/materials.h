@@ -5,7 +5,7 @@
 
 namespace vkpm {
 
-/// A material as kernels read it. Throws InputError.
-Material readMaterial(Reader reader);
+/// A material as kernels read it; what it needs of Scene::rests is added to `rests`. Throws InputError.
+Material readMaterial(Reader reader, std::vector<float>& rests);
 
 } // namespace vkpm

@@ -39,11 +39,13 @@ struct Scene {
     std::vector<Primitive> primitives; // triangles, then spheres
     std::vector<Normals> normals;
     std::vector<Material> materials;
+    std::vector<float> rests; // see DeviceScene
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
-    Target lit{vec3{0}, 0};  // about all that light falls upon
-    Target near{vec3{0}, 0}; // about all but far lights
+    std::vector<float> targetWeights; // see DeviceScene
+    Target lit{vec3{0}, 0};           // about all that light falls upon
+    Target near{vec3{0}, 0};          // about all but far lights
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
     vec3 flux{0};       // of all lights, W over the square of the unit of length

@@ -98,8 +98,7 @@ void ShapeLoader::finish() {
 
 /// Of primitives that were added from `first` on.
 void ShapeLoader::noteGlass(const Reader& shape, const Surface& surface, std::size_t first) {
-    if (scene.materials[surface.material].kind == MATERIAL_GLASS)
-        glass.push_back({shape, {first, scene.primitives.size()}});
+    if (isGlass(scene.materials[surface.material])) glass.push_back({shape, {first, scene.primitives.size()}});
 }
 
 ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
@@ -111,7 +110,7 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
 
     surface.material = readMaterial(shape, emission.has_value());
     if (isSpecular(surface) && surface.radiance != vec3{0})
-        emission->fail("found emission on a mirror or glass", "only diffuse shapes may emit");
+        emission->fail("found emission on a material that is not diffuse", "only diffuse shapes may emit");
     return surface;
 }
 
@@ -163,7 +162,7 @@ void ShapeLoader::addSphere(Reader& shape) {
     requireRoom(shape);
     spheres.push_back(
         {a, b, poleOf(scene.coordinates.inside(transform.point(center)), scaled), surface.material, light, NONE});
-    if (isSpecular(surface)) scene.targets.push_back({a, b.x});
+    addTarget(surface, Target{a, b.x});
 }
 
 void ShapeLoader::addRectangle(Reader& shape) {
@@ -185,7 +184,7 @@ void ShapeLoader::addRectangle(Reader& shape) {
     const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
     addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
     addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
-    addTarget(surface, std::array{a, a + u, a + u + v, a + v});
+    addTarget(surface, boundingSphere(std::array{a, a + u, a + u + v, a + v}));
     noteGlass(shape, surface, scene.primitives.size() - 2);
 }
 
@@ -233,7 +232,7 @@ std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transf
     for (std::size_t i = first; i < scene.primitives.size(); ++i)
         for (const vec3 point : {scene.primitives[i].a, scene.primitives[i].b, scene.primitives[i].c})
             points.push_back(point);
-    addTarget(surface, points);
+    addTarget(surface, boundingSphere(points));
     noteGlass(shape, surface, first);
     return dropped;
 }
@@ -295,8 +294,12 @@ uint ShapeLoader::addNormals(const Primitive& primitive, const std::array<vec3, 
     return static_cast<uint>(scene.normals.size() - 1);
 }
 
-void ShapeLoader::addTarget(const Surface& surface, std::span<const vec3> points) {
-    if (isSpecular(surface)) scene.targets.push_back(boundingSphere(points));
+void ShapeLoader::addTarget(const Surface& surface, const Target& target) {
+    if (!isSpecular(surface)) return;
+    const Material& material = scene.materials[surface.material];
+    const bool coat = material.kind == MATERIAL_PLASTIC;
+    scene.targets.push_back(target);
+    scene.targetWeights.push_back(coat ? 1 - scene.rests[material.rest * REST_ROW + REST_MEAN] : 1);
 }
 
 } // namespace vkpm

@@ -50,7 +50,7 @@ private:
     void addFlat(const Reader& shape, const Primitive& triangle);
     uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area);
     uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
-    void addTarget(const Surface& surface, std::span<const vec3> points);
+    void addTarget(const Surface& surface, const Target& target);
     bool isSpecular(const Surface& surface) const;
     void noteGlass(const Reader& shape, const Surface& surface, std::size_t first);
 
