@@ -1,6 +1,7 @@
 /// What a render did and what it took, as one JSON object.
 #include "output/statistics.h"
 #include "output/atomic_file.h"
+#include "shared_kinds.h"
 #include <nlohmann/json.hpp>
 
 namespace vkpm {
@@ -23,11 +24,20 @@ Json photonsJson(const PhotonLedger& counts) {
             {"lost", counts.lost}};
 }
 
+/// By the names that `vkpm plan` has; kinds of materials and lights have one each.
 Json featuresJson(const Features& features) {
     Json object = Json::object();
 #define X(id, type, name, value) object[#name] = uint(features.name);
     FEATURES(X)
 #undef X
+#define X(id, NAME, name, lobes, words) object["has" #name] = features.materialKinds >> id & 1;
+    MATERIALS(X)
+#undef X
+#define X(id, NAME, name, words) object["has" #name "Lights"] = features.lightKinds >> id & 1;
+    LIGHTS(X)
+#undef X
+    object.erase("materialKinds");
+    object.erase("lightKinds");
     return object;
 }
 
