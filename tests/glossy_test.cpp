@@ -54,7 +54,7 @@ TEST(Glossy, SamplesHaveTheWeightsOfTheirDensity) {
                     xs.push_back({material,
                                   direction(cosine, 0.1),
                                   {0, 0, 1},
-                                  {(i % side + 0.5f) / side, (float(i / side) + 0.5f) / side}});
+                                  {(float(i % side) + 0.5f) / side, (float(i / side) + 0.5f) / side}});
                 const auto samples = map<GlossyValues>("glossy", xs);
                 for (std::size_t i = 0; i < xs.size(); i++) xs[i].wi = samples[i].direction;
                 const auto values = map<GlossyValues>("glossy", xs);
