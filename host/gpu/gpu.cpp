@@ -178,9 +178,13 @@ static std::unique_ptr<Gpu::Handles> open(std::string_view wanted) {
 }
 
 Gpu::Handles::~Handles() {
+    if (!warmingUp.empty()) settle();
+}
+
+void Gpu::Handles::settle() const noexcept {
     try {
-        if (!warmingUp.empty()) device.waitIdle();
-    } catch (const vk::SystemError&) { // a device that is lost runs nothing
+        device.waitIdle();
+    } catch (const std::exception&) { // a device that says that it is lost runs nothing
     }
 }
 

@@ -40,6 +40,9 @@ struct Gpu::Handles {
     vk::raii::CommandBuffer begin() const;
     /// Submits commands whose recording has ended; the fence, if there is one, tells when they are done.
     void submit(const vk::raii::CommandBuffer& commands, vk::Fence fence) const;
+    /// Waits for all that was submitted, before what it uses is freed; of a device that is lost, too, for it may still
+    /// be at work.
+    void settle() const noexcept;
     /// Waits for the fence of what was submitted; false if that was done already.
     bool wait(const vk::raii::Fence& fence);
 };

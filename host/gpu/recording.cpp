@@ -79,9 +79,9 @@ struct Recording::Handles {
     }
 
     void finishOldest() {
+        gpu.waits += gpu.handles->wait(submitted.front()->fence); // may throw: what runs keeps what it uses
         Part part = std::move(submitted.front());
         submitted.pop_front();
-        gpu.waits += gpu.handles->wait(part->fence);
         addTimes(*part);
         for (const RecordingPart::Letter& letter : part->letters)
             std::memcpy(letter.value, part->mailbox.mapped + letter.offset, letter.bytes);
@@ -96,7 +96,8 @@ Recording::~Recording() {
         for (const auto& part : handles->submitted) part->letters.clear(); // their readers may be gone
         while (!handles->submitted.empty()) handles->finishOldest();
         if (handles->open) handles->gpu.handles->idleParts.push_back(std::move(handles->open));
-    } catch (const std::exception&) { // a device that is lost runs nothing
+    } catch (const std::exception&) {
+        handles->gpu.handles->settle();
     }
 }
 
