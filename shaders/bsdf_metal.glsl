@@ -6,15 +6,11 @@
 #include "shared_scene.h"
 
 Scattering sampleMetal(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
-    vec3 h;
-    float weight;
-    vec3 wi = sampleGgx(m.alpha, n, -d, u.yz, weight, h);
-    return Scattering(wi, weight * schlick(m.color, -dot(d, h)), n, 1.0, ggxPdf(m.alpha, n, -d, wi));
+    return sampleGgx(m.alpha, m.color, d, n, u.yz);
 }
 
 vec3 evaluateMetal(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
-    vec3 h = normalize(wo + wi);
-    return ggxDensity(m.alpha, n, h) * ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)) * schlick(m.color, dot(wo, h));
+    return evaluateGgx(m.alpha, m.color, n, wo, wi);
 }
 
 float pdfMetal(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }

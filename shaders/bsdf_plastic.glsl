@@ -13,15 +13,11 @@ vec3 coat(Material m) {
 }
 
 Scattering samplePlastic(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
-    vec3 h;
-    float weight;
-    vec3 wi = sampleGgx(m.alpha, n, -d, u.yz, weight, h);
-    return Scattering(wi, weight * schlick(coat(m), -dot(d, h)), n, 1.0, ggxPdf(m.alpha, n, -d, wi));
+    return sampleGgx(m.alpha, coat(m), d, n, u.yz);
 }
 
 vec3 evaluatePlastic(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
-    vec3 h = normalize(wo + wi);
-    return ggxDensity(m.alpha, n, h) * ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)) * schlick(coat(m), dot(wo, h));
+    return evaluateGgx(m.alpha, coat(m), n, wo, wi);
 }
 
 float pdfPlastic(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) { return ggxPdf(m.alpha, n, wo, wi); }

@@ -7,12 +7,8 @@
 #include "scattering.glsl"
 #include "shared_scene.h"
 
-// Index beyond over index on the side of incidence.
-float ratioBeyond(Material m, bool leaving) { return leaving ? 1.0 / m.ior : m.ior; }
-
 float roughFresnel(Material m, bool leaving, float cosine) {
-    bool schlick = hasSchlickFresnel && (!hasExactFresnel || m.schlick != 0u);
-    return fresnel(schlick, ratioBeyond(m, leaving), min(1.0, cosine));
+    return fresnelOf(m, ratioBeyond(m, leaving), min(1.0, cosine));
 }
 
 // Density of reflections alone; that of refractions is left out, as no light sample goes beyond the interface.
@@ -31,7 +27,7 @@ vec3 evaluateRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
 
 // Reflection with the probability of Fresnel's reflectance at the facet, else refraction.
 Scattering sampleRoughGlass(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
-    vec3 h = sampleVisibleFacet(m.alpha, n, -d, u.yz);
+    vec3 h = sampleFacet(m.alpha, n, -d, 1.0, u.yz);
     float eta = ratioBeyond(m, leaving), cosine = min(1.0, -dot(d, h));
     bool reflects = u.x < roughFresnel(m, leaving, cosine);
     float cosT = sqrt(max(0.0, refractedCosine2(eta, cosine)));

@@ -2,6 +2,7 @@
 #ifndef FRESNEL_GLSL
 #define FRESNEL_GLSL
 #include "common.glsl"
+#include "shared_scene.h"
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; eta = index beyond / index on the side of incidence,
 // cosines with the normal on both sides (Born & Wolf 1999, sec. 1.5.2). Where the indices hardly differ, the
@@ -33,6 +34,13 @@ float fresnel(bool schlick, float eta, float cosI) {
     if (cos2 <= 0.0) return 1.0;
     float cosT = sqrt(cos2);
     return schlick ? fresnelSchlick(eta, cosI, cosT) : fresnelExact(eta, cosI, cosT);
+}
+
+// Index beyond over index on the side of incidence.
+float ratioBeyond(Material m, bool leaving) { return leaving ? 1.0 / m.ior : m.ior; }
+
+float fresnelOf(Material m, float eta, float cosI) {
+    return fresnel(hasSchlickFresnel && (!hasExactFresnel || m.schlick != 0u), eta, cosI);
 }
 
 #endif

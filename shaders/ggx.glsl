@@ -6,6 +6,7 @@
 #include "common.glsl"
 #include "directions.glsl"
 #include "sampling.glsl"
+#include "scattering.glsl"
 
 // Schlick's reflectance (1994, eq. 15) of a metal or a coat, from that at normal incidence.
 vec3 schlick(vec3 normalIncidence, float cosine) {
@@ -46,30 +47,31 @@ float ggxVisibility(float alpha, float zo, float zi) {
     return zi / (2.0 * (zi * stretched(alpha, zo) + zo * stretched(alpha, zi)));
 }
 
-// A facet's normal in proportion to what wo sees of it and to the reflections above the horizon (bounded caps: Dupuy &
-// Benyoub 2023, Eto & Tokuyoshi 2023), as the direction of reflection; `weight` is the value over the density, without
-// reflectance.
-vec3 sampleGgx(float alpha, vec3 n, vec3 wo, vec2 u, out float weight, out vec3 h) {
+// A facet's normal in proportion to what wo sees of it, from the part k of the cap of visible normals (Dupuy & Benyoub
+// 2023): 1 for all of them.
+vec3 sampleFacet(float alpha, vec3 n, vec3 wo, float k, vec2 u) {
     float z = min(1.0, dot(wo, n)), stretch = stretched(alpha, z);
-    vec3 along = mix(z * n, wo, alpha) / stretch;
-    float k = boundedCap(alpha, z);
     float height = u.y * (1.0 + k * z / stretch); // of the cap's point below its top
-    vec3 cap = vec3(sqrt(max(0.0, height * (2.0 - height))) * unitCircle(u.x), 1.0 - height);
-    vec3 facet = along + toWorld(cap, n);
-    h = normalize(mix(dot(facet, n) * n, facet, alpha));
-    vec3 wi = reflect(-wo, h);
-    float zi = max(0.0, dot(wi, n));
-    weight = zi * (k * z + stretch) / (zi * stretch + z * stretched(alpha, zi));
-    return wi;
-}
-
-// A facet's normal in proportion to what wo sees of it alone.
-vec3 sampleVisibleFacet(float alpha, vec3 n, vec3 wo, vec2 u) {
-    float z = min(1.0, dot(wo, n)), stretch = stretched(alpha, z);
-    float height = u.y * (1.0 + z / stretch);
     vec3 cap = vec3(sqrt(max(0.0, height * (2.0 - height))) * unitCircle(u.x), 1.0 - height);
     vec3 facet = mix(z * n, wo, alpha) / stretch + toWorld(cap, n);
     return normalize(mix(dot(facet, n) * n, facet, alpha));
+}
+
+// A reflection of the lobe of a metal or coat, by the facets that do not reflect below the horizon (Eto & Tokuyoshi
+// 2023); its weight is the value over the density.
+Scattering sampleGgx(float alpha, vec3 normalIncidence, vec3 d, vec3 n, vec2 u) {
+    float z = min(1.0, -dot(d, n)), stretch = stretched(alpha, z), k = boundedCap(alpha, z);
+    vec3 h = sampleFacet(alpha, n, -d, k, u), wi = reflect(d, h);
+    float zi = max(0.0, dot(wi, n));
+    float weight = zi * (k * z + stretch) / (zi * stretch + z * stretched(alpha, zi));
+    return Scattering(wi, weight * schlick(normalIncidence, -dot(d, h)), n, 1.0, ggxPdf(alpha, n, -d, wi));
+}
+
+// The value of that lobe, times the cosine of wi.
+vec3 evaluateGgx(float alpha, vec3 normalIncidence, vec3 n, vec3 wo, vec3 wi) {
+    vec3 h = normalize(wo + wi);
+    return ggxDensity(alpha, n, h) * ggxVisibility(alpha, dot(wo, n), dot(wi, n)) *
+           schlick(normalIncidence, dot(wo, h));
 }
 
 // Correlated G2 over G1 of wo, by the cosines of both directions, whatever their sides.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <string>
+#include <string_view>
 
 namespace vkpm {
 
@@ -14,5 +15,12 @@ public:
 private:
     std::uint64_t value = 0xcbf29ce484222325u;
 };
+
+/// 16 hexadecimal digits that differ if a text differs.
+inline std::string hashText(std::string_view text) {
+    Hash hash;
+    for (const char c : text) hash.add(static_cast<unsigned char>(c));
+    return hash.text();
+}
 
 } // namespace vkpm

@@ -10,7 +10,6 @@
 #include "scene/shapes.h"
 #include "scene/text.h"
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -110,15 +109,16 @@ Reader importedCamera(Import& import, std::optional<Reader> film, Settings& sett
 }
 
 /// What a part of an import is made of: a material of the scene by the same name, or that of the file.
-ShapeLoader::Surface importedSurface(Import& import, uint index, Scene& scene,
+ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, Scene& scene,
                                      const std::map<std::string, uint>& ofScene) {
-    const GltfMaterial imported = import.material(index);
-    const auto own = ofScene.find(import.materialName(index));
+    const GltfMaterial imported = import.material(part.material);
+    const auto own = ofScene.find(import.materialName(part.material));
     ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
         scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene.rests));
-    } else if (scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
+    } else if (surface.radiance != vec3{0} && scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
+        import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
     }
     return surface;
@@ -132,7 +132,7 @@ void addImport(Import& import, Scene& scene, std::map<std::string, uint>& indice
         for (std::size_t i = instance.firstPart; i < instance.endPart; ++i) {
             const ImportedPart& part = import.parts()[i];
             if (!surfaces.contains(part.material)) {
-                surfaces[part.material] = importedSurface(import, part.material, scene, ofScene);
+                surfaces[part.material] = importedSurface(import, part, scene, ofScene);
                 indices.try_emplace(import.materialName(part.material), surfaces[part.material].material);
             }
             if (loader.add(part.place, part.mesh, instance.transform, surfaces[part.material]) > 0)
@@ -180,15 +180,9 @@ void readScene(Reader root, Scene& scene) {
 /// Hashes of files but the first, for those who ask later what has changed.
 void hashFiles(Scene& scene) {
     for (std::size_t i = 1; i < scene.files.size(); ++i) {
-        const std::string bytes = readBytes(scene.files[i], maxMeshBytes, "");
-        Hash hash;
-        for (std::size_t at = 0; at < bytes.size(); at += 4) {
-            std::uint32_t word = 0;
-            std::memcpy(&word, &bytes[at], std::min<std::size_t>(4, bytes.size() - at));
-            hash.add(word);
-        }
         const auto name = scene.files[i].lexically_relative(scene.files.front().parent_path());
-        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] = hash.text();
+        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] =
+            hashText(readBytes(scene.files[i], maxMeshBytes, ""));
     }
 }
 

@@ -1,6 +1,5 @@
 /// Writing settings as JSON.
 #include "scene/settings_json.h"
-#include "scene/hash.h"
 #include <nlohmann/json.hpp>
 
 namespace vkpm {
@@ -27,12 +26,6 @@ std::string settingsJson(const Settings& s) {
         json["show"] = showNames[s.showPoints];
     }
     return json.dump();
-}
-
-std::string hashText(const std::string& text) {
-    Hash hash;
-    for (const char c : text) hash.add(static_cast<unsigned char>(c));
-    return hash.text();
 }
 
 } // namespace vkpm

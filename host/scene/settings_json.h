@@ -8,7 +8,4 @@ namespace vkpm {
 /// One JSON object with the keys of a scene's `settings`, and those of the command line beside them.
 std::string settingsJson(const Settings& settings);
 
-/// 16 hexadecimal digits that differ if a text differs (FNV-1a, Fowler, Noll & Vo 1991).
-std::string hashText(const std::string& text);
-
 } // namespace vkpm
