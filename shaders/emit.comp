@@ -18,6 +18,10 @@
 
 ARGS(EmitArgs)
 
+uint mediaOfLight(DeviceScene scene, uint light) {
+    return hasMedia && scene.media != uvec2(0u) ? uintPtr(scene.lightMedia).at[light] : 0u;
+}
+
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
@@ -29,7 +33,8 @@ void main() {
     if (hasGuide && args.guide != uvec2(0u)) inverseDensity = guide(GuideNodePtr(args.guide), numbers);
 
     // A light in proportion to its flux, a point on it, and the side if there are two.
-    Light light = LightPtr(scene.lights).at[chooseLight(scene, scene.lightCdf, numbers[PRIMARY_LIGHT])];
+    uint chosen = chooseLight(scene, scene.lightCdf, numbers[PRIMARY_LIGHT]);
+    Light light = LightPtr(scene.lights).at[chosen];
     requireLight(scene, light);
     LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
     if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
@@ -51,7 +56,7 @@ void main() {
     weight *= inverseDensity;
 
     vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);
-    args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);
+    args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u, mediaOfLight(scene, chosen));
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;
     putFlags(args.flags, slot, PHOTON_QUEUES, weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u);

@@ -18,7 +18,8 @@ void main() {
     vec2 within = args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.pass, args.seed, SAMPLES_EYE), 0u);
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
-    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u);
+    uint media = hasMedia ? args.scene.at[0].cameraMedia : 0u;
+    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u, media);
     args.list.at[slot] = slot;
     if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
 

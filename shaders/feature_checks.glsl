@@ -18,7 +18,7 @@ void requireLight(DeviceScene scene, Light light) {
 void requireSurface(DeviceScene scene, uint primitive, Material material) {
     if (!checksFeatures) return;
     bool triangle = primitive < scene.triangleCount;
-    bool glass = (GLASS_KINDS >> material.kind & 1u) != 0u;
+    bool glass = (DIELECTRIC_KINDS >> material.kind & 1u) != 0u;
     require(scene, triangle, hasTriangles, id_hasTriangles);
     require(scene, !triangle, hasSpheres, id_hasSpheres);
     require(scene, triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE, hasSmoothNormals,
@@ -28,6 +28,9 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
             triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE &&
                 material.kind == MATERIAL_DIFFUSE,
             hasSmoothDiffuse, id_hasSmoothDiffuse);
+    require(scene, scene.media != uvec2(0u), hasMedia, id_hasMedia);
+    require(scene, scene.touching != uvec2(0u), hasTouching, id_hasTouching);
+    require(scene, scene.media != uvec2(0u) && material.spread != vec2(0.0), hasDispersion, id_hasDispersion);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
     require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);

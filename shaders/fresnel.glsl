@@ -43,4 +43,29 @@ float fresnelOf(Material m, float eta, float cosI) {
     return fresnel(hasSchlickFresnel && (!hasExactFresnel || m.schlick != 0u), eta, cosI);
 }
 
+// A unit direction d after refraction at a facet h on its side.
+vec3 refractAbout(vec3 d, vec3 h, float eta, float cosI) {
+    float cosT = sqrt(max(0.0, refractedCosine2(eta, cosI)));
+    return normalize((d + cosI * h) / eta - cosT * h);
+}
+
+// ---- Dispersion: three channels, of which refraction takes one --------------------------------------
+
+bool isDispersive(Material m) { return hasDispersion && m.spread != vec2(0.0); }
+
+// Ratios as ratioBeyond, for red, green and blue.
+vec3 ratiosBeyond(Material m, bool leaving) {
+    vec3 ratios = m.ior + vec3(m.spread.x, 0.0, m.spread.y);
+    return leaving ? 1.0 / ratios : ratios;
+}
+
+vec3 fresnelByChannel(Material m, bool leaving, float cosI) {
+    if (!isDispersive(m)) return vec3(fresnelOf(m, ratioBeyond(m, leaving), cosI));
+    vec3 etas = ratiosBeyond(m, leaving);
+    return vec3(fresnelOf(m, etas.x, cosI), fresnelOf(m, etas.y, cosI), fresnelOf(m, etas.z, cosI));
+}
+
+// The probability of reflection by these.
+float meanReflectance(vec3 reflectances) { return (reflectances.x + reflectances.y + reflectances.z) / 3.0; }
+
 #endif

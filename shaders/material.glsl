@@ -8,6 +8,7 @@
 #include "bsdf_plastic.glsl"
 #include "bsdf_polished.glsl"
 #include "bsdf_rough_glass.glsl"
+#include "bsdf_thin_glass.glsl"
 #include "common.glsl"
 #include "lobes.glsl"
 #include "scattering.glsl"
@@ -159,8 +160,12 @@ Scattering scatterDelta(Material m, Surface s, vec3 d, float u) {
     return scatterAbout(m, d, geometric, leaving, u);
 }
 
+// Whether light goes straight through a surface of glass, see atInterface in media.glsl.
+bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
+
 // Scattering by any lobe but the diffuse one.
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
+    if (isPassage(m)) return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);
     if (isGlossy(m)) return scatterGlossy(m, s, d, u);
     return scatterDelta(m, s, d, u.x);
 }

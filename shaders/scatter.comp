@@ -9,6 +9,7 @@
 #include "directions.glsl"
 #include "feature_checks.glsl"
 #include "material.glsl"
+#include "media.glsl"
 #include "offset.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
@@ -36,10 +37,14 @@ uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface 
     vec2 u = sample2(s, 4u * bounce + 5u);
     vec2 place = isGlossy(material) ? sample2(s, 4u * bounce + 6u) : vec2(0.0);
     uint run = specularRun(path.flags);
+    Interface at = Interface(path.media, NONE);
+    if (hasMedia) at = atInterface(args.scene.at[0], path, surface, material);
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
+    uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    path = Path(leave(surface, event.direction), event.direction, path.throughput * correction, 0.0, surface.primitive,
-                afterSpecular(path.flags));
+    vec3 origin = leaveInterface(args.scene.at[0], surface, at, event.direction);
+    path = Path(origin, event.direction, path.throughput * correction, 0.0, surface.primitive,
+                afterSpecular(path.flags), media);
     return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON
                                                                                          : OUTCOME_ABSORBED;
 }
@@ -62,7 +67,7 @@ uint scatterAtDiffuse(uint bounce, inout Path path, Material material, Surface s
     if (!russianRoulette(path, material.color, survival, sample2(s, 4u * bounce + 5u).y)) return OUTCOME_ABSORBED;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 4u * bounce + 6u)), normal);
     path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction, path.throughput, 0.0,
-                surface.primitive, path.flags & ~PATH_SPECULARS);
+                surface.primitive, path.flags & ~PATH_SPECULARS, path.media);
     return OUTCOME_GOES_ON;
 }
 
@@ -92,7 +97,7 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
         args.caustic != 0u ? OUTCOME_ABSORBED : scatterAtDiffuse(bounce, path, material, surface, normal, survival, s);
     if (!passes || outcome == OUTCOME_GOES_ON) return outcome;
     path = Path(leave(surface, passing.direction), passing.direction, passing.throughput / (1.0 - survival), 0.0,
-                surface.primitive, path.flags | PATH_THROUGH);
+                surface.primitive, path.flags | PATH_THROUGH, path.media);
     return OUTCOME_GOES_ON;
 }
 
@@ -124,7 +129,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
         float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
         path =
             Path(leave(surface, event.direction), event.direction, path.throughput * event.weight * correction / glossy,
-                 0.0, surface.primitive, afterSpecular(path.flags));
+                 0.0, surface.primitive, afterSpecular(path.flags), path.media);
         return maxComponent(path.throughput) > 0.0 ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
     }
     if (u >= glossy + diffuse) return OUTCOME_ABSORBED;
@@ -132,7 +137,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     float outgoing = dot(direction, scatteringNormal(surface, -direction));
     vec3 color = base.throughput * albedo * (diffuseArrival(scene, material, outgoing) / diffuse);
     path = Path(offsetPoint(surface.position, surface.magnitude, geometric), direction, color, 0.0, surface.primitive,
-                path.flags & ~PATH_SPECULARS);
+                path.flags & ~PATH_SPECULARS, path.media);
     return maxComponent(color) > 0.0 ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
 }
 
@@ -145,10 +150,12 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
 
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
+    if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     uint outcome;
+    if (hasMedia && !(maxComponent(path.throughput) > 0.0)) return OUTCOME_ABSORBED;
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
     if (hasLayered && material.kind != MATERIAL_DIFFUSE && isDiffuse(material)) {
         uint index = path.flags >> PATH_DIFFUSE_SHIFT;

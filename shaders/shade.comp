@@ -13,6 +13,7 @@
 #include "film_layout.glsl"
 #include "light.glsl"
 #include "material.glsl"
+#include "media.glsl"
 #include "offset.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
@@ -73,6 +74,13 @@ void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surf
         vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
 }
 
+// A light sample comes through what the path is in.
+void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, Path path) {
+    if (hasMedia)
+        vertex.shadowRay.radiance *=
+            transmittance(scene, path.media, distance(vertex.shadowRay.origin, vertex.shadowRay.target));
+}
+
 // Asks for one light sample.
 void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
                       float bulge, vec3 weight, BounceSampler s) {
@@ -81,6 +89,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
                                     columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    attenuateShadowRay(vertex, scene, path);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
@@ -98,7 +107,7 @@ void storeSplit(inout Vertex vertex, Path path, Surface surface, vec3 normal, ve
     if (!(hasDirectLayer || hasSpecularLayer || hasIndirectLayer) || maxComponent(weight) <= 0.0) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | 1u << PATH_DIFFUSE_SHIFT;
     vertex.split = Split(offsetPoint(surface.position, surface.magnitude, normal), normal, shading, weight,
-                         surface.primitive, flags, bulge, path.distanceSinceDiffuse * args.pixelAngle);
+                         surface.primitive, flags, bulge, path.distanceSinceDiffuse * args.pixelAngle, path.media);
 }
 
 // Whether light that is found beyond a diffuse vertex has a layer to go to.
@@ -121,7 +130,7 @@ void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface su
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
     float arrival = diffuseArrivalAt(scene, surface.primitive, dot(direction, shading));
     vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
-                       path.throughput * albedo / survival * arrival, 0.0, surface.primitive, flags);
+                       path.throughput * albedo / survival * arrival, 0.0, surface.primitive, flags, path.media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
 }
 
@@ -135,27 +144,32 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
     vertex.shadowRay =
         sampleDirectGlossy(scene, surface, material, scatteringNormal(surface, path.direction), -path.direction,
                            path.throughput, layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    attenuateShadowRay(vertex, scene, path);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
 void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
                        BounceSampler s) {
+    Interface at = Interface(path.media, NONE);
+    if (hasMedia) at = atInterface(scene, path, surface, material);
     vec2 u = bounceSample(s, 0u);
     vec2 place = vec2(0.0);
-    if (isGlossy(material)) {
+    if (isGlossy(material) && !isPassage(material)) {
         requestGlossyShadowRay(vertex, scene, path, material, surface, s);
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
+    uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
     uint run = specularRun(path.flags);
     float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
     if (u.y >= survival) return;
     uint flags = afterSpecular(path.flags) | (diffuseCount(path.flags) == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
     if (!(maxComponent(throughput) > 0.0)) return;
-    vertex.path = Path(leave(surface, event.direction), event.direction, throughput, path.distanceSinceDiffuse,
-                       surface.primitive, withPdf(flags, event.pdf));
+    vec3 origin = leaveInterface(scene, surface, at, event.direction);
+    vertex.path = Path(origin, event.direction, throughput, path.distanceSinceDiffuse, surface.primitive,
+                       withPdf(flags, event.pdf), media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
 }
 
@@ -201,6 +215,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     path.distanceSinceDiffuse += hit.t;
+    if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     if (bounce == 0u) {
         if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
@@ -213,7 +228,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
         if (surface.bulge == 0.0 || !isDiffuse(material)) return vertex;
         vertex.path = Path(leave(surface, path.direction), path.direction, path.throughput, path.distanceSinceDiffuse,
-                           surface.primitive, path.flags & ~PATH_THROUGH);
+                           surface.primitive, path.flags & ~PATH_THROUGH, path.media);
         vertex.queues = 1u << QUEUE_CONTINUE;
         return vertex;
     }

@@ -88,7 +88,10 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(28, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
     X(29, bool, hasGuide, true)                                                                                        \
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
-    X(31, bool, hasContact, true)
+    X(31, bool, hasContact, true)                                                                                      \
+    X(32, bool, hasMedia, true)                                                                                        \
+    X(33, bool, hasDispersion, true)                                                                                   \
+    X(34, bool, hasTouching, true)
 
 #ifdef __cplusplus
 struct Features {

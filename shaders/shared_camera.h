@@ -38,6 +38,7 @@ struct Split {
     uint flags;      // as in Path; NONE: there is no such point
     float bulge;     // on the side of the normal, see terminator.glsl
     float footprint; // width of a pixel there
+    uint media;      // as in Path
 };
 BUFFER(Split)
 

@@ -19,15 +19,17 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 
 // Those that send light in one direction.
 #define DELTA_MATERIALS(X)                                                                                             \
-    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")            /* perfect, both sides */                                   \
-    X(2, GLASS, Glass, LOBE_DELTA, "glass")                /* smooth, its inside against the normal */                 \
-    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal") /* a mirror by Schlick, both sides */
+    X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")                /* perfect, both sides */                               \
+    X(2, GLASS, Glass, LOBE_DELTA, "glass")                    /* smooth, its inside against the normal */             \
+    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal")     /* a mirror by Schlick, both sides */                   \
+    X(8, THIN_GLASS, ThinGlass, LOBE_DELTA, "sheets of glass") /* smooth on both sides */
 
 // Those with a glossy lobe, which light samples meet too.
 #define GLOSSY_MATERIALS(X)                                                                                            \
     X(4, METAL, Metal, LOBE_GLOSSY | LOBE_DIFFUSE, "rough metal")                                                      \
     X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")                                                      \
-    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")
+    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")                                                          \
+    X(9, ROUGH_THIN_GLASS, RoughThinGlass, LOBE_GLOSSY, "rough sheets of glass")
 
 // id, constant, name of functions, in words
 #define LIGHTS(X)                                                                                                      \
@@ -54,6 +56,8 @@ const uint DELTA_KINDS = 0u MATERIALS(X);
 #undef X
 const uint SPECULAR_KINDS = DELTA_KINDS | GLOSSY_KINDS;
 const uint GLASS_KINDS = 1u << MATERIAL_GLASS | 1u << MATERIAL_ROUGH_GLASS;
+const uint SHEET_KINDS = 1u << MATERIAL_THIN_GLASS | 1u << MATERIAL_ROUGH_THIN_GLASS;
+const uint DIELECTRIC_KINDS = GLASS_KINDS | SHEET_KINDS; // whose reflectance is Fresnel's
 const uint LAYERED_KINDS = DIFFUSE_KINDS & SPECULAR_KINDS;
 
 #define X(id, NAME, name, words) | 1u << id

@@ -30,6 +30,7 @@ struct Path {
     float distanceSinceDiffuse; // since the last diffuse vertex
     uint from;                  // primitive that the ray leaves, or NONE
     uint flags;                 // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT on
+    uint media;                 // that the ray is in, see media.glsl
 };
 const uint PATH_EYE_SPECULAR = 1u;               // eye: the event at the first vertex was specular or glossy
 const uint PATH_SPECULAR = 2u;                   // one specular or glossy event since the last diffuse one

@@ -63,14 +63,29 @@ struct Normals {
 BUFFER(Normals)
 
 struct Material {
-    uint kind;    // MATERIAL_...
-    vec3 color;   // albedo, reflectance (of metal at normal incidence), or factor at each refraction, within [0, 1]
-    float ior;    // glass: index inside / index outside; plastic: of its coat
-    uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
-    float alpha;  // of a glossy lobe: roughness^2
-    uint rest;    // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
+    uint kind;     // MATERIAL_...
+    vec3 color;    // albedo, reflectance (of metal at normal incidence), or factor at each refraction, within [0, 1]
+    float ior;     // glass: index inside / index outside; plastic: of its coat
+    uint schlick;  // glass: 1 for Schlick's reflectance in place of the exact one
+    float alpha;   // of a glossy lobe: roughness^2
+    uint rest;     // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
+    uint medium;   // glass: what it is filled with, index into DeviceScene.media
+    uint exterior; // glass: what is outside of it, likewise; NONE: what a path was in
+    vec2 spread;   // glass: what is added to `ior` for red and for blue
 };
 BUFFER(Material)
+
+/// What glass is filled with. The first of DeviceScene.media is what all of it stands in: clear, of index 1.
+struct Medium {
+    vec3 attenuation; // light falls to 2^-(attenuation x way)
+    float ior;        // for green
+    vec2 spread;      // what is added to it for red and for blue
+    uint priority;    // where glass overlaps, the highest counts; of equals, that which was entered last
+};
+BUFFER(Medium)
+
+const uint MEDIUM_BITS = 8u; // a path knows the four media that it is in: those that count first in the lowest bits
+const uint MAX_MEDIA = 1u << MEDIUM_BITS;
 
 // What a glossy lobe leaves to the diffuse one, 1 - E(cos) where E is what the glossy one reflects: a row has the
 // values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law.
@@ -121,13 +136,19 @@ struct DeviceScene {
     ADDRESS(Target) targets;
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers
-    ADDRESS(uint) missing;        // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;                   // about all that light falls upon
-    Target near;                  // about all but far lights
+    ADDRESS(Medium) media;
+    ADDRESS(uint) lightMedia; // by light, of paths that start there
+    ADDRESS(uint) touching;  // by triangle, where the list of those that may lie on it begins, here too; then the lists
+    ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
+    ADDRESS(uint) overflows; // how often a path was in more than four media
+    Target lit;              // about all that light falls upon
+    Target near;             // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;
-    float unit; // of lengths, in world units: a power of two
+    float unit;       // of lengths, in world units: a power of two
+    uint cameraMedia; // of paths that start at the camera
+    uint unused;      // C++ rounds sizes up to 8 bytes
     Camera camera;
 };
 BUFFER(DeviceScene)

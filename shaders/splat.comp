@@ -8,6 +8,7 @@
 #include "directions.glsl"
 #include "feature_checks.glsl"
 #include "material.glsl"
+#include "media.glsl"
 #include "offset.glsl"
 #include "shared_paths.h"
 #include "shared_photons.h"
@@ -45,7 +46,7 @@ bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
     vec3 direction = normalize(toPhoton);
     Hit hit = closest(scene, scene.camera.origin, direction, NONE);
     if (hit.primitive == NONE) return false;
-    Surface surface = surfaceAt(scene, Path(scene.camera.origin, direction, vec3(1.0), 0.0, NONE, 0u), hit);
+    Surface surface = surfaceAt(scene, Path(scene.camera.origin, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
     if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
@@ -54,6 +55,7 @@ bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
     vec3 albedo = diffuseAlbedo(scene, material, -dot(direction, scatteringNormal(surface, direction)));
     float solidAngle = pixelSolidAngle(scene.camera, args.size, dot(direction, scene.camera.forward));
     radiance = photon.color * albedo * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));
+    if (hasMedia) radiance *= transmittance(scene, scene.cameraMedia, length(toPhoton));
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include "direct.glsl"
 #include "directions.glsl"
 #include "film_layout.glsl"
+#include "media.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
 #include "shared_camera.h"
@@ -22,6 +23,7 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
     if (!hasLayer(layer)) return false;
     ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
                                  args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
+    if (hasMedia) ray.radiance *= transmittance(args.scene.at[0], from.media, distance(ray.origin, ray.target));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
@@ -33,7 +35,7 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
     float arrival = diffuseArrivalAt(args.scene.at[0], from.from, dot(direction, from.shading));
-    args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags);
+    args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags, from.media);
     return true;
 }
 

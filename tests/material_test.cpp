@@ -259,5 +259,53 @@ TEST(Material, IsDiffuse) {
               std::vector<uint>{1});
 }
 
+// As many channels as there are indices, each by Snell's law; their weights are those of Fresnel's equations.
+TEST(Scatter, PrismBendsColoursApart) {
+    const double ior = 1.5, spread = 0.5 / (2 * 55);
+    Material glass{MATERIAL_GLASS, vec3{1}, float(ior)};
+    glass.spread = {-spread, spread};
+    const Features features{.hasSmoothNormals = 0};
+    std::vector<ScatterCase> into, out;
+    const vec3 d = glm::normalize(vec3{0.6f, -0.8f, 0});
+    const int count = 999;
+    for (int i = 0; i < count; i++) into.push_back({glass, {0, 1, 0}, {0, 1, 0}, d, (i + 0.5f) / count});
+    const double apex = pi / 6;
+    const dvec3 face{std::sin(apex), -std::cos(apex), 0};
+    for (const ScatterValues& y : map<ScatterValues>("scatter_specular", into, features))
+        out.push_back({glass, vec3{face}, vec3{face}, y.direction, 1 - 0x1p-20f});
+    const auto entered = map<ScatterValues>("scatter_specular", into, features);
+    dvec3 transmitted{0}, reflected{0};
+    for (const ScatterValues& y : entered)
+        (y.direction.y < 0 ? transmitted : reflected) += dvec3{y.weight} / double(count);
+    for (int channel = 0; channel < 3; channel++) {
+        const double n = ior + (channel - 1) * spread, cosT = std::sqrt(1 - 0.36 / (n * n));
+        const double s = (0.8 - n * cosT) / (0.8 + n * cosT), p = (n * 0.8 - cosT) / (n * 0.8 + cosT);
+        EXPECT_NEAR(reflected[channel], (s * s + p * p) / 2, 2e-3);
+        EXPECT_NEAR(transmitted[channel] + reflected[channel], 1, 4e-3);
+        int found = 0;
+        for (int i = 0; i < count; i++) {
+            const ScatterValues& y = entered[std::size_t(i)];
+            if (y.direction.y > 0 || y.weight[channel] == 0) continue;
+            found++;
+            ASSERT_NEAR(y.weight.x + y.weight.y + y.weight.z, 3, 0.02) << "one channel alone";
+            ASSERT_NEAR(y.direction.x, 0.6 / n, 1e-6);
+        }
+        EXPECT_NEAR(found, count / 3.0, 20);
+    }
+    // Through both faces of the prism.
+    const auto left = map<ScatterValues>("scatter_specular", out, features);
+    for (std::size_t i = 0; i < left.size(); i++) {
+        if (entered[i].direction.y > 0 || dot(left[i].direction, vec3{face}) < 0) continue;
+        for (int first = 0; first < 3; first++)
+            for (int second = 0; second < 3; second++) {
+                if (entered[i].weight[first] == 0 || left[i].weight[second] == 0) continue;
+                const double n = ior + (first - 1) * spread, m = ior + (second - 1) * spread;
+                const dvec3 within{0.6 / n, -std::sqrt(1 - 0.36 / (n * n)), 0};
+                const double sine = glm::length(glm::cross(within, face)) * m;
+                ASSERT_NEAR(glm::length(glm::cross(dvec3{left[i].direction}, face)), sine, 1e-5);
+            }
+    }
+}
+
 } // namespace
 } // namespace vkpm

@@ -79,6 +79,122 @@ def water(columns=120, rows=80, width=3.02, depth=2.02):
     return grid(grid_point, columns, rows, closed=False)
 
 
+# A goblet's outline, distance from the axis and height: outside from the middle of the foot to the rim, then inside.
+GOBLET_OUTSIDE = [(0, 0), (0.3, 0), (0.355, 0.01), (0.355, 0.03), (0.2, 0.06), (0.07, 0.14), (0.045, 0.3)]
+GOBLET_OUTSIDE += [(0.045, 0.75), (0.08, 0.86), (0.22, 0.96), (0.37, 1.13), (0.42, 1.33), (0.385, 1.6), (0.325, 1.9)]
+RIM = [(0.322, 1.906), (0.316, 1.906)]
+GOBLET_INSIDE = [(0.313, 1.9), (0.373, 1.6), (0.408, 1.33), (0.358, 1.14), (0.21, 0.98), (0.08, 0.91), (0, 0.9)]
+
+
+def goblet():
+    """A glass for wine about the y axis, closed, its walls 0.012 thick."""
+    return lathe(spline(GOBLET_OUTSIDE + RIM + GOBLET_INSIDE, 4))
+
+
+def wine(level=1.38, overlap=0.006):
+    """What the goblet holds: to the middle of its walls, so that both overlap, and flat at the top."""
+    inside = [(x + overlap * nx, y + overlap * ny, nx, ny) for x, y, nx, ny in spline(GOBLET_INSIDE[::-1], 6)]
+    inside[0] = (0.0, *inside[0][1:])
+    below = [point for point in inside if point[1] < level]
+    last, above = below[-1], next(point for point in inside if point[1] >= level)
+    part = (level - last[1]) / (above[1] - last[1])
+    edge = last[0] + part * (above[0] - last[0])
+    return lathe([*below, (edge, level, last[2], last[3]), (edge, level, 0.0, 1.0), (0.0, level, 0.0, 1.0)])
+
+
+def spline(points, steps):
+    """Points of a Catmull-Rom curve through an outline, each with the normal on the right of its way."""
+    ends = [(-points[1][0], points[1][1]), *points, (-points[-2][0], points[-2][1])]
+    curve = []
+    for a, b, c, d in zip(ends, ends[1:], ends[2:], ends[3:], strict=False):
+        for step in range(steps + (c is points[-1])):
+            t = step / steps
+            place, ahead = [], []
+            for k in (0, 1):
+                first, second = (c[k] - a[k]) / 2, a[k] - 2.5 * b[k] + 2 * c[k] - d[k] / 2
+                third = (3 * (b[k] - c[k]) + d[k] - a[k]) / 2
+                place.append(b[k] + t * (first + t * (second + t * third)))
+                ahead.append(first + t * (2 * second + 3 * t * third))
+            length = math.hypot(*ahead)
+            curve.append((place[0], place[1], ahead[1] / length, -ahead[0] / length))
+    return curve
+
+
+def lathe(profile, segments=56):
+    """An outline turned about the y axis, of distance, height and normal; where a place has two normals is an edge."""
+    points, rows = [], []
+    for x, y, normal_x, normal_y in profile:
+        rows.append([])
+        for i in range(segments if x > 1e-9 else 1):
+            around = (math.cos(TURN * i / segments), -math.sin(TURN * i / segments))
+            rows[-1].append(len(points) + 1)
+            points.append(((x * around[0], y, x * around[1]), (normal_x * around[0], normal_y, normal_x * around[1])))
+    faces = []
+    for k in range(len(profile) - 1):
+        for i in range(segments if profile[k][:2] != profile[k + 1][:2] else 0):
+            one, other, j = rows[k], rows[k + 1], (i + 1) % segments
+            corners = [one[i % len(one)], one[j % len(one)], other[j % len(other)], other[i % len(other)]]
+            faces.append(tuple(dict.fromkeys(corners)))
+    return points, faces
+
+
+def brilliant(table=0.56, crown=34.5, pavilion=40.75, girdle=0.015):
+    """A round brilliant about the y axis of radius 1, its girdle about y = 0; angles of its main facets in degrees."""
+    height = girdle + (1 - table) * math.tan(math.radians(crown))
+    planes = [((0.0, 1.0, 0.0), height)]
+
+    def ring(count, turned, tilt, through):
+        # Facets that lean by an angle and go through a point at a distance from the axis and a height.
+        for k in range(count):
+            angle, lean = TURN * (k + turned) / count, math.radians(tilt)
+            normal = (math.sin(lean) * math.cos(angle), math.cos(lean), -math.sin(lean) * math.sin(angle))
+            planes.append((normal, math.sin(lean) * through[0] + math.cos(lean) * through[1]))
+
+    ring(8, 0.5, 21, (table * 1.06, height))  # stars
+    ring(8, 0, crown, (1, girdle))
+    ring(16, 0.5, crown + 6, (0.99, girdle))
+    ring(64, 0.5, 90, (1, 0))
+    ring(16, 0.5, 180 - pavilion - 1.2, (0.99, -girdle))
+    ring(8, 0, 180 - pavilion, (1, -girdle))
+    return polyhedron(planes)
+
+
+def polyhedron(planes):
+    """The faces of what lies within all planes (unit normal, distance), each by cutting a square with all others."""
+    points, faces = [], []
+    for normal, distance in planes:
+        side = unit(cross(normal, (0.0, 0.0, 1.0) if abs(normal[2]) < 0.9 else (1.0, 0.0, 0.0)))
+        up = cross(normal, side)
+        square = [(9, 9), (-9, 9), (-9, -9), (9, -9)]
+        polygon = [combine(combine(side, up, x, y), normal, 1.0, distance) for x, y in square]
+        for other, limit in planes:
+            if other is not normal:
+                polygon = cut(polygon, other, limit)
+        face = []
+        for corner in polygon:
+            near = [i for i, (point, _) in enumerate(points) if math.dist(point, corner) < 1e-4]
+            if not near:
+                points.append((corner, None))
+            face.append(near[0] if near else len(points) - 1)
+        face = [i + 1 for i, following in zip(face, face[1:] + face[:1], strict=True) if i != following]
+        if len(face) > 2:
+            faces.append(tuple(face))
+    return points, faces
+
+
+def cut(polygon, normal, distance):
+    """What of a polygon lies within a plane."""
+    result = []
+    for a, b in zip(polygon, polygon[1:] + polygon[:1], strict=True):
+        beyond_a, beyond_b = dot(a, normal) - distance, dot(b, normal) - distance
+        if beyond_a <= 0:
+            result.append(a)
+        if beyond_a * beyond_b < 0:
+            part = beyond_a / (beyond_a - beyond_b)
+            result.append(combine(a, b, 1 - part, part))
+    return result
+
+
 def grid(grid_point, columns, rows, closed):
     """Vertices, normals and quadrilaterals of a grid, which closes upon itself both ways or ends at its borders."""
     extra = 0 if closed else 1
@@ -126,8 +242,8 @@ def write(path, title, mesh):
     points, faces = mesh
     lines = [f"# {title}", "# Written by tools/make_meshes.py; change it there."]
     lines += ["v " + " ".join(map(number, position)) for position, _ in points]
-    lines += ["vn " + " ".join(map(number, normal)) for _, normal in points]
-    lines += ["f " + " ".join(f"{i}//{i}" for i in face) for face in faces]
+    lines += ["vn " + " ".join(map(number, normal)) for _, normal in points if normal]
+    lines += ["f " + " ".join(f"{i}//{i}" if points[i - 1][1] else f"{i}" for i in face) for face in faces]
     path.write_text("\n".join(lines) + "\n", newline="\n")
 
 
@@ -138,6 +254,9 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) == 2 else default
     write(folder / "knot.obj", "A tube around a trefoil knot, closed, normals outward.", knot())
     write(folder / "ring.obj", "A metal band with rounded rims, closed, normals outward.", ring())
+    write(folder / "goblet.obj", "A glass for wine, closed, normals outward.", goblet())
+    write(folder / "wine.obj", "The wine in the goblet, closed, normals outward, overlapping its walls.", wine())
+    write(folder / "brilliant.obj", "A cut stone, closed, flat facets.", brilliant())
     write(folder / "water.obj", "A water surface with waves, normals upward.", water())
 
 

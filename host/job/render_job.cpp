@@ -304,6 +304,10 @@ bool RenderJob::finish() {
             tell(fmt::format("{} photons were still under way after {} bounces and were left: the picture is too dark; "
                              "a closed scene that absorbs nothing has no finite light",
                              lost, MAX_BOUNCES));
+    if (const uint overflows = renderer.mediaOverflows())
+        tell(fmt::format("paths entered a fifth medium {} times, and forgot the one that counts least: glass lies in "
+                         "glass too often; leave gaps between shapes, or join them",
+                         overflows));
     warnOfDarkness();
     warnOfBlur();
     save();

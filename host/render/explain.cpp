@@ -66,6 +66,9 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
 #define X(id, NAME, name, lobes, words) has("has" #name, f.materialKinds >> id & 1, words);
     MATERIALS(X)
 #undef X
+    has("hasMedia", f.hasMedia, "glass that takes light away, or lies in other glass");
+    has("hasDispersion", f.hasDispersion, "glass that refracts colours apart");
+    has("hasTouching", f.hasTouching, "faces of glass that lie on each other");
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");

@@ -79,9 +79,14 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.materialKinds = features.lightKinds = 0;
     for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
     for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
-    const bool glass = hasMaterials(features, GLASS_KINDS);
-    features.hasContact = glass && glassMayTouchOpaque(scene);
-    features.hasTint = anyMaterial([](const Material& m) { return isGlass(m) && m.color != vec3(1); });
+    const bool glass = hasMaterials(features, DIELECTRIC_KINDS);
+    features.hasContact = hasMaterials(features, GLASS_KINDS) && glassMayTouchOpaque(scene);
+    features.hasMedia = !scene.media.empty();
+    features.hasDispersion =
+        std::ranges::any_of(scene.media, [](const Medium& medium) { return medium.spread != vec2{0}; });
+    features.hasTouching = !scene.touching.empty();
+    features.hasTint =
+        anyMaterial([](const Material& m) { return (DIELECTRIC_KINDS >> m.kind & 1) != 0 && m.color != vec3(1); });
     features.hasExactFresnel = glass && !settings.schlick;
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;

@@ -40,6 +40,8 @@ public:
     void setView(const View& view, uvec2 size);
 
     RayCounts rays() const { return cameraRays; }
+    /// How often a path entered a fifth medium at a time, counted up to 2^32.
+    uint mediaOverflows() const { return scene.mediaOverflows(); }
     /// Of all passes; what is learned before the first one is not in it.
     const Work& work() const { return passWork; }
     /// What the kernels are made for; hasGuide once a pass was rendered.

@@ -17,7 +17,8 @@ static std::vector<Material> withFresnel(std::vector<Material> materials, bool s
 }
 
 UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& settings)
-    : nodes(uploaded(gpu, "scene nodes", scene.nodes)), leaves(uploaded(gpu, "scene leaves", scene.leaves)),
+    : media(scene), nodes(uploaded(gpu, "scene nodes", scene.nodes)),
+      leaves(uploaded(gpu, "scene leaves", scene.leaves)),
       primitives(uploaded(gpu, "scene primitives", scene.primitives)),
       normals(uploaded(gpu, "scene normals", scene.normals)),
       materials(uploaded(gpu, "scene materials", withFresnel(scene.materials, settings.schlick))),
@@ -26,7 +27,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
       targets(uploaded(gpu, "scene targets", scene.targets)),
       targetWeights(uploaded(gpu, "scene target weights", scene.targetWeights)),
-      missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
+      mediaBuffer(uploaded(gpu, "scene media", scene.media)),
+      lightMedia(uploaded(gpu, "scene light media", scene.lightMedia)),
+      touching(uploaded(gpu, "scene touching", scene.touching)),
+      missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})),
+      overflows(uploaded(gpu, "scene media overflows", std::vector<uint>{0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,
@@ -38,7 +43,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .targets = targets,
               .targetWeights = targetWeights,
               .rests = rests,
+              .media = mediaBuffer,
+              .lightMedia = lightMedia,
+              .touching = touching,
               .missing = missing,
+              .overflows = overflows,
               .lit = scene.lit,
               .near = scene.near,
               .triangleCount = scene.triangleCount,
@@ -51,6 +60,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
 
 void UploadedScene::setView(const View& view, uvec2 size) {
     device.camera = pinholeCamera(view, size);
+    device.cameraMedia = media.at(glm::dvec3{view.origin});
     address.upload(std::span(&device, 1));
 }
 

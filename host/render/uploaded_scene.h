@@ -1,12 +1,11 @@
 /// A scene on the device.
 #pragma once
 #include "gpu/buffer.h"
+#include "scene/media.h"
 #include "scene/scene.h"
 #include "shared_scene.h"
 
 namespace vkpm {
-
-/// Bounces after which a path ends: a photon is lost, a path from the eye finds no more light.
 
 /// Uploads the arrays of a scene once; kernels read them through `address`.
 class UploadedScene {
@@ -24,10 +23,14 @@ public:
     /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
     void requireNothingMissing() const;
 
+    /// How often a path was in more media than it can tell apart.
+    uint mediaOverflows() const { return overflows.download()[0]; }
+
     Buffer<DeviceScene> address;
 
 private:
     DeviceScene device{};
+    MediaLocator media;
     Buffer<Node> nodes;
     Buffer<Leaf> leaves;
     Buffer<Primitive> primitives;
@@ -39,7 +42,11 @@ private:
     Buffer<float> directCdf;
     Buffer<Target> targets;
     Buffer<float> targetWeights;
+    Buffer<Medium> mediaBuffer;
+    Buffer<uint> lightMedia;
+    Buffer<uint> touching;
     Buffer<uint> missing;
+    Buffer<uint> overflows;
 };
 
 } // namespace vkpm

@@ -10,6 +10,12 @@ inline Bounds united(const Bounds& one, const Bounds& other) {
     return {glm::min(one.low, other.low), glm::max(one.high, other.high)};
 }
 
+/// Whether two boxes are no farther apart than that along any axis.
+inline bool areNear(const Bounds& a, const Bounds& b, double apart) {
+    return glm::all(glm::lessThanEqual(glm::dvec3{a.low} - apart, glm::dvec3{b.high})) &&
+           glm::all(glm::lessThanEqual(glm::dvec3{b.low} - apart, glm::dvec3{a.high}));
+}
+
 /// The greatest of a box's coordinates, signs aside.
 double reachOf(const Bounds& box);
 

@@ -120,31 +120,6 @@ bool isWithinGlass(const Scene& scene, const GlassShape& shape, const Bounds& bo
     return glm::all(glm::lessThanEqual(around.low, box.low)) && glm::all(glm::greaterThanEqual(around.high, box.high));
 }
 
-bool areNear(const Bounds& a, const Bounds& b, double apart) {
-    return glm::all(glm::lessThanEqual(dvec3{a.low} - apart, dvec3{b.high})) &&
-           glm::all(glm::lessThanEqual(dvec3{b.low} - apart, dvec3{a.high}));
-}
-
-/// The triangles of a shape by a box.
-std::vector<Primitive> trianglesBy(const Scene& scene, const GlassShape& shape, const Bounds& box, double apart) {
-    std::vector<Primitive> found;
-    std::copy_if(scene.primitives.begin() + std::ptrdiff_t(shape.first),
-                 scene.primitives.begin() + std::ptrdiff_t(shape.end), std::back_inserter(found),
-                 [&](const Primitive& p) { return areNear(boxOf(p, false), box, apart); });
-    return found;
-}
-
-dvec3 normalOf(const Primitive& p) {
-    return glm::normalize(glm::cross(dvec3{p.b} - dvec3{p.a}, dvec3{p.c} - dvec3{p.a}));
-}
-
-/// Whether the middle of a triangle lies on another.
-bool liesOn(const Primitive& p, const Primitive& other, double apart) {
-    const dvec3 middle = (dvec3{p.a} + dvec3{p.b} + dvec3{p.c}) / 3.0;
-    return areNear({vec3{middle}, vec3{middle}}, boxOf(other, false), apart) &&
-           distance2(other, middle) <= apart * apart && std::abs(glm::dot(normalOf(p), normalOf(other))) > 0.9999;
-}
-
 const std::size_t maxPairs = 10'000'000; // of triangles to compare
 
 const std::size_t placesLookedAt = 64;
@@ -156,18 +131,6 @@ Bounds boxOf(const Scene& scene, const GlassShape& shape) {
     Bounds box;
     for (std::size_t i = shape.first; i < shape.end; i++) box = united(box, boxOf(scene.primitives[i], false));
     return box;
-}
-
-bool touch(const Scene& scene, const GlassShape& one, const GlassShape& other) {
-    const Bounds &a = one.box, &b = other.box;
-    const double apart = std::ldexp(std::max(reachOf(a), reachOf(b)), -17); // rays leave faces by half of this
-    if (!areNear(a, b, apart)) return false;
-    const std::vector<Primitive> ours = trianglesBy(scene, one, b, apart), theirs = trianglesBy(scene, other, a, apart);
-    if (ours.size() * theirs.size() > maxPairs) return false;
-    return std::ranges::any_of(ours, [&](const Primitive& p) {
-        return std::ranges::any_of(theirs,
-                                   [&](const Primitive& q) { return liesOn(p, q, apart) || liesOn(q, p, apart); });
-    });
 }
 
 bool glassMayTouchOpaque(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "scene/import.h"
 #include "scene/lights.h"
 #include "scene/materials.h"
+#include "scene/media.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
@@ -80,7 +81,7 @@ std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
     std::map<std::string, uint> indices;
     for (const std::string& name : reader.keys()) {
         indices[name] = static_cast<uint>(scene.materials.size());
-        scene.materials.push_back(readMaterial(reader.at(name), scene.rests));
+        scene.materials.push_back(readMaterial(reader.at(name), scene));
     }
     return indices;
 }
@@ -116,7 +117,7 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
     ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
-        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene.rests));
+        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene));
     } else if (surface.radiance != vec3{0} && scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
@@ -205,6 +206,7 @@ Scene loadScene(const std::filesystem::path& file) {
     checkExtent(scene, file);
     hashFiles(scene);
     chooseLights(scene, file);
+    findMedia(scene, file);
     scene.lit = sphereOfLit(scene);
     scene.near = sphereOfNear(scene);
 

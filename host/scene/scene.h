@@ -17,6 +17,13 @@ struct Bounds {
     vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
+/// Primitives first .. end - 1 of a scene, which are one shape of glass.
+struct GlassShape {
+    std::size_t first;
+    std::size_t end;
+    Bounds box{};
+};
+
 /// Where the camera stands and looks; the field of view is vertical, in radians.
 struct View {
     vec3 origin{0, 0, 1};
@@ -39,7 +46,11 @@ struct Scene {
     std::vector<Primitive> primitives; // triangles, then spheres
     std::vector<Normals> normals;
     std::vector<Material> materials;
-    std::vector<float> rests; // see DeviceScene
+    std::vector<float> rests;     // see DeviceScene
+    std::vector<Medium> media;    // likewise; empty if paths need not know what they are in
+    std::vector<uint> lightMedia; // likewise
+    std::vector<uint> touching;   // likewise
+    std::vector<GlassShape> glass;
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;

@@ -70,8 +70,6 @@ void ShapeLoader::add(Reader shape) {
     }
 }
 
-const std::size_t maxTouching = 300; // shapes of glass that are compared with each other
-
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
     scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
@@ -79,20 +77,14 @@ void ShapeLoader::finish() {
         const auto name = shape.find("name");
         shape.warn(scene.warnings, name ? fmt::format("\"{}\": {}", printable(name->text(), 60), wrong) : wrong);
     };
+    for (std::size_t i = scene.triangleCount; i < scene.primitives.size(); i++)
+        if (isGlass(scene.materials[scene.primitives[i].material]))
+            scene.glass.push_back({i, i + 1, vkpm::boxOf(scene.primitives[i], true)});
     for (std::size_t i = 0; i < glass.size(); i++) {
         auto& [shape, primitives] = glass[i];
         primitives.box = boxOf(scene, primitives);
+        scene.glass.push_back(primitives);
         for (const std::string& wrong : wrongWithGlass(scene, primitives)) warn(shape, wrong);
-        const auto touched =
-            glass.size() > maxTouching
-                ? glass.begin() + std::ptrdiff_t(i)
-                : std::find_if(glass.begin(), glass.begin() + std::ptrdiff_t(i),
-                               [&](const auto& other) { return touch(scene, primitives, other.second); });
-        if (touched == glass.begin() + std::ptrdiff_t(i)) continue;
-        const auto name = touched->first.find("name");
-        warn(shape, fmt::format("a face of the glass lies on one of {}, and light there takes one of the two alone; "
-                                "leave a gap, or make one face of both, with \"exteriorIor\"",
-                                name ? fmt::format("\"{}\"", printable(name->text(), 60)) : "another shape of glass"));
     }
 }
 

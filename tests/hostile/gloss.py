@@ -1,0 +1,105 @@
+"""Hostile cases of materials with lobes, and of media."""
+
+from lab import (
+    BOX,
+    Lab,
+    Scene,
+    Verdict,
+    against_path,
+    case,
+    changed,
+    plus,
+    rectangle,
+    same_means,
+    sphere,
+    without,
+)
+
+BALL = [0.45, -0.65, 0.25]  # the box's glass ball, 0.35 wide
+EMPTY = without(BOX, "glass ball", "mirror ball")
+
+
+def with_ball(**material: object) -> Scene:
+    """The box with one ball of a material."""
+    return plus(EMPTY, sphere(BALL, 0.35, material="matter"), matter=material)
+
+
+def nested(*radii: float, **material: object) -> Scene:
+    """Balls in a ball, all of one material."""
+    return plus(EMPTY, *(sphere(BALL, radius, material="matter") for radius in radii), matter=material)
+
+
+def by_alpha(alpha: float, **material: object) -> None:
+    """Facets from hardly to fully rough."""
+    @case("gloss", f"a ball of {material['type']} with alpha {alpha:g}", "mean of the path tracer within 2 %")
+    def judge(lab: Lab) -> Verdict:
+        return against_path(lab, with_ball(**material, roughness=alpha**0.5), 0.02, passes="256")
+
+
+for width in (1e-3, 0.03, 1):
+    by_alpha(width, type="metal", reflectance=0.95)
+    by_alpha(width, type="glass", ior=1.5)
+by_alpha(1e-3, type="plastic", albedo=0.9)
+
+
+def by_index(ior: float) -> None:
+    """Rough glass that hardly differs from air."""
+    @case("gloss", f"a rough ball of index 1 {ior - 1:+.0e}", "the empty box's mean within 1 %")
+    def judge(lab: Lab) -> Verdict:
+        tame = lab.render(EMPTY, "--passes", "16")
+        render = lab.render(with_ball(type="glass", ior=ior, roughness=0.7), "--passes", "16")
+        return Verdict(render, tame, *same_means(render, tame, 0.01, ("beauty",)))
+
+
+for index in (1 - 1e-6, 1 + 1e-6):
+    by_index(index)
+
+
+@case("gloss", "glass whose colours are half its index apart", "mean of the path tracer within 2 %")
+def abbe(lab: Lab) -> Verdict:
+    return against_path(lab, with_ball(type="glass", ior=1.5, abbe=1), 0.02, passes="256")
+
+
+@case("gloss", "balls of glass in a ball of the same glass", "the means of the largest alone, within 1 %")
+def shells(lab: Lab) -> Verdict:
+    tame = lab.render(nested(0.35, type="glass", ior=1.5, priority=1), "--passes", "16")
+    render = lab.render(nested(0.35, 0.3, 0.2, type="glass", ior=1.5), "--passes", "16")
+    return Verdict(render, tame, *same_means(render, tame, 0.01))
+
+
+@case("gloss", "a hundred balls of glass in each other", "a warning, no hang")
+def hundred(lab: Lab) -> Verdict:
+    render = lab.render(nested(*(0.35 - 0.003 * i for i in range(100)), type="glass", ior=1.5), "--passes", "4")
+    warned = any("fifth medium" in warning for warning in render.stats["warnings"])
+    return Verdict(render, lab.render(BOX, "--passes", "16"), "warned" if warned else "silent", warned, work=4)
+
+
+@case("gloss", "two blocks of glass that overlap, no priority", "mean of the path tracer within 2 %")
+def overlap(lab: Lab) -> Verdict:
+    scene = plus(EMPTY, sphere(BALL, 0.35, material="water"), sphere([0.2, -0.6, 0.1], 0.3, material="heavy"),
+                 water={"type": "glass", "ior": 1.33}, heavy={"type": "glass", "ior": 1.8})
+    return against_path(lab, scene, 0.02, passes="256")
+
+
+@case("gloss", "the camera and the lamp within red water", "mean of the path tracer within 2 %")
+def within(lab: Lab) -> Verdict:
+    water = {"type": "glass", "ior": 1.33, "attenuation": {"color": [0.9, 0.4, 0.3], "distance": 1}}
+    return against_path(lab, plus(BOX, sphere([0, 0, 0], 40, material="water"), water=water), 0.02, passes="256")
+
+
+@case("gloss", "red water up to the ceiling of the box", "mean of the path tracer within 2 %")
+def full(lab: Lab) -> Verdict:
+    water = {"type": "glass", "ior": 1.33, "attenuation": {"color": [0.9, 0.4, 0.3], "distance": 1}}
+    low, high = [-0.99, -0.99, -0.99], 1.6
+    faces = [(low, [1.98, 0, 0], [0, 0, 1.98]), ([-0.99, low[1] + high, 0.99], [1.98, 0, 0], [0, 0, -1.98]),
+             (low, [0, high, 0], [1.98, 0, 0]), ([-0.99, -0.99, 0.99], [1.98, 0, 0], [0, high, 0]),
+             (low, [0, 0, 1.98], [0, high, 0]), ([0.99, -0.99, -0.99], [0, high, 0], [0, 0, 1.98])]
+    scene = plus(EMPTY, *(rectangle(*face, material="water") for face in faces), water=water)
+    return against_path(lab, scene, 0.02, passes="256")
+
+
+@case("gloss", "a room of metal that loses a tenth at each wall", "E / (1 - 0.9), as the path tracer, within 2 %")
+def metal_room(lab: Lab) -> Verdict:
+    metal = {"type": "metal", "reflectance": 0.9, "roughness": 0.7}
+    scene = changed(EMPTY, materials=dict.fromkeys(BOX["materials"], metal))
+    return against_path(lab, scene, 0.02, passes="512")
