@@ -3,6 +3,7 @@
 #define SHARED_SCENE_H
 #include "shared.h"
 #include "shared_kinds.h"
+#include "shared_sky.h"
 
 SHARED_BEGIN
 
@@ -78,7 +79,7 @@ const uint REST_STEPS = 32u;
 const uint REST_MEAN = REST_STEPS + 1u;
 const uint REST_ROW = REST_STEPS + 2u;
 
-/// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
+/// A light. Area lights emit `radiance` on the side of their normal, or on both.
 struct Light {
     vec3 a;
     vec3 u;
@@ -86,7 +87,7 @@ struct Light {
     vec3 radiance;
     uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
-    float area;
+    float area;  // of lights without one, flux over pi times radiance
     float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
 };
 BUFFER(Light)
@@ -121,11 +122,13 @@ struct DeviceScene {
     ADDRESS(Target) targets;
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers
-    ADDRESS(uint) missing;        // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;                   // about all that light falls upon
-    Target near;                  // about all but far lights
+    ADDRESS(Sky) sky;
+    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit;            // about all that light falls upon
+    Target near;           // about all but far lights
     uint triangleCount;
     uint lightCount;
+    uint endlessCount; // of the first lights
     uint targetCount;
     float unit; // of lengths, in world units: a power of two
     Camera camera;

@@ -59,8 +59,9 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[PRIMARY_TARGET] = scene.targets.size() > 1;
     lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
-    global = axes[PRIMARY_LIGHT] ||
-             std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
+    global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) {
+                 return isEndless(light) || isFar(scene, light);
+             });
 }
 
 Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed,

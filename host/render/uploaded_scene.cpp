@@ -1,6 +1,8 @@
 /// Upload of a scene.
 #include "render/uploaded_scene.h"
+#include "scene/lights.h"
 #include "shared_scene.h"
+#include <algorithm>
 #include <stdexcept>
 
 namespace vkpm {
@@ -26,7 +28,14 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
       targets(uploaded(gpu, "scene targets", scene.targets)),
       targetWeights(uploaded(gpu, "scene target weights", scene.targetWeights)),
+      skyTexels(uploaded(gpu, "sky texels", scene.skyTexels)), skyRows(uploaded(gpu, "sky rows", scene.skyRows)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
+    if (!scene.skyTexels.empty()) {
+        Sky withTables = scene.sky;
+        withTables.texels = skyTexels;
+        withTables.rows = skyRows;
+        sky = uploaded(gpu, "sky", std::vector{withTables});
+    }
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,
@@ -38,11 +47,13 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .targets = targets,
               .targetWeights = targetWeights,
               .rests = rests,
+              .sky = sky,
               .missing = missing,
               .lit = scene.lit,
               .near = scene.near,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
+              .endlessCount = static_cast<uint>(std::ranges::count_if(scene.lights, isEndless)),
               .targetCount = static_cast<uint>(scene.targets.size()),
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);

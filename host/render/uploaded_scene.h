@@ -39,6 +39,9 @@ private:
     Buffer<float> directCdf;
     Buffer<Target> targets;
     Buffer<float> targetWeights;
+    Buffer<SkyTexel> skyTexels;
+    Buffer<float> skyRows;
+    Buffer<Sky> sky;
     Buffer<uint> missing;
 };
 

@@ -36,6 +36,10 @@ std::string sceneHash(const Scene& scene) {
     hash.add(scene.normals);
     hash.add(scene.materials);
     hash.add(scene.lights);
+    if (!scene.skyTexels.empty()) {
+        hash.add(scene.skyTexels);
+        hash.addWords(scene.sky);
+    }
     hash.add(scene.targets);
     hash.addWords(scene.view);
     return hash.text();

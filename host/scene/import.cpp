@@ -235,16 +235,4 @@ void Import::addSphere(json& shapes, dvec3 middle, double size, dvec3 radiance) 
         {{"type", "sphere"}, {"center", placeJson(middle)}, {"radius", size}, {"emission", placeJson(radiance)}});
 }
 
-Reader Import::sky() {
-    losses.add(file->root(), "no light: a white sky of radiance 1 lights the whole");
-    const double far =
-        cameraJson.is_object()
-            ? glm::distance(center, {cameraJson["origin"][0], cameraJson["origin"][1], cameraJson["origin"][2]})
-            : 0;
-    skyJson = json::array();
-    addSphere(skyJson, center, 20 * std::max(radius, far), dvec3{1});
-    skyJson[0]["twoSided"] = true;
-    return Reader{path, skyJson};
-}
-
 } // namespace vkpm

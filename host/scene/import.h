@@ -45,8 +45,8 @@ public:
     std::optional<float> aspect() const { return cameraAspect; }
     /// Lamps as an array of shapes of a scene file, likewise.
     Reader lamps();
-    /// A white sky about everything, for a scene without a light, as one shape.
-    Reader sky();
+    /// Says that a white sky lights the whole.
+    void loseLight() { losses.add(file->root(), "no light: a white sky of radiance 1 lights the whole"); }
 
     const std::vector<std::filesystem::path>& files() const { return file->files(); }
     void lose(const Reader& where, std::string_view what) { losses.add(where, what); }
@@ -81,7 +81,7 @@ private:
     std::vector<ImportedInstance> placed;
     glm::dvec3 center{0}; // of a sphere about all parts, in world units
     double radius = 0;
-    nlohmann::json cameraJson, lampsJson = nlohmann::json::array(), skyJson = nlohmann::json::array();
+    nlohmann::json cameraJson, lampsJson = nlohmann::json::array();
     std::optional<float> cameraAspect;
 };
 

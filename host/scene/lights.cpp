@@ -16,13 +16,23 @@ dvec3 lightFlux(const Light& light) {
     return sides * glm::pi<double>() * double{light.area} * dvec3{light.radiance};
 }
 
+void measureEndless(Scene& scene) {
+    const double disc = double{scene.lit.radius} * scene.lit.radius;
+    for (Light& light : scene.lights)
+        if (isEndless(light)) {
+            const double solidAngle = glm::pi<double>() * (light.kind == LIGHT_SUN ? 2 * double{light.u.y} : 4.0);
+            light.area = static_cast<float>(disc * solidAngle);
+        }
+}
+
 void chooseLights(Scene& scene, const std::filesystem::path& file) {
     dvec3 flux{0};
     for (const Light& light : scene.lights) flux += lightFlux(light);
     scene.flux = vec3{flux};
     const double total = luminance(flux);
     if (scene.lights.empty() || scene.flux == vec3{0})
-        refuseFile(file, ": /shapes", "there is no light", "give a shape an \"emission\" above 0");
+        refuseFile(file, ": /shapes", "there is no light",
+                   "give a shape an \"emission\" above 0, or the scene \"lights\" or an \"environment\"");
     if (!std::isfinite(scene.flux.x + scene.flux.y + scene.flux.z))
         refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
@@ -75,9 +85,11 @@ Target sphereOfNear(const Scene& scene) {
 }
 
 bool isFar(const Scene& scene, const Light& light) {
+    if (isEndless(light)) return false;
     const dvec3 a = dvec3{light.a} - dvec3{scene.lit.center}, u{light.u}, v{light.v};
     const double reach =
-        light.kind == LIGHT_SPHERE
+        isDelta(light) ? glm::length(a)
+        : light.kind == LIGHT_SPHERE
             ? glm::length(a) + u.x
             : std::max({glm::length(a), glm::length(a + u), glm::length(a + v), glm::length(a + u + v)});
     return reach > 1.9999 * double{scene.lit.radius};

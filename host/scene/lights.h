@@ -6,6 +6,12 @@
 
 namespace vkpm {
 
+inline bool isEndless(const Light& light) { return (ENDLESS_KINDS >> light.kind & 1) != 0; }
+inline bool isDelta(const Light& light) { return (DELTA_LIGHT_KINDS >> light.kind & 1) != 0; }
+
+/// Gives lights that are endlessly far their area: their flux is what comes through the disc about all that is lit.
+void measureEndless(Scene& scene);
+
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 

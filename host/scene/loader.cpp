@@ -3,11 +3,13 @@
 #include "scene/bvh.h"
 #include "scene/hash.h"
 #include "scene/import.h"
+#include "scene/lamps.h"
 #include "scene/lights.h"
 #include "scene/materials.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
+#include "scene/sky.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -150,6 +152,8 @@ void readScene(Reader root, Scene& scene) {
     const auto film = root.find("film");
     const auto settings = root.find("settings");
     const auto materials = root.find("materials");
+    const auto environment = root.find("environment");
+    const auto lights = root.find("lights");
     const auto shapes = importReader ? root.find("shapes") : root.at("shapes");
     root.finish();
 
@@ -159,6 +163,8 @@ void readScene(Reader root, Scene& scene) {
     std::map<std::string, uint> indices;
     if (materials) indices = readMaterials(*materials, scene);
 
+    if (environment) readEnvironment(*environment, scene);
+    if (lights) addSuns(*lights, scene);
     std::optional<Import> import;
     if (importReader) noteFiles(scene, import.emplace(*importReader).files());
     if (!camera) camera = importedCamera(*import, film, scene.settings);
@@ -172,7 +178,11 @@ void readScene(Reader root, Scene& scene) {
     scene.view = readView(*camera, scene.coordinates);
     if (import) addImport(*import, scene, indices, loader);
     for (std::size_t i = 0; i < count; ++i) loader.add(shapes->element(i));
-    if (import && scene.lights.empty()) loader.add(import->sky().element(0));
+    if (lights) addLamps(*lights, scene, loader);
+    if (import && scene.lights.empty()) {
+        import->loseLight();
+        addConstantSky(scene, vec3{1});
+    }
     if (import) import->tellLosses(scene.warnings);
     loader.finish();
 }
@@ -204,8 +214,9 @@ Scene loadScene(const std::filesystem::path& file) {
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
     hashFiles(scene);
-    chooseLights(scene, file);
     scene.lit = sphereOfLit(scene);
+    measureEndless(scene);
+    chooseLights(scene, file);
     scene.near = sphereOfNear(scene);
 
     addBvh(scene);

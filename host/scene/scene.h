@@ -39,8 +39,11 @@ struct Scene {
     std::vector<Primitive> primitives; // triangles, then spheres
     std::vector<Normals> normals;
     std::vector<Material> materials;
-    std::vector<float> rests; // see DeviceScene
-    std::vector<Light> lights;
+    std::vector<float> rests;        // see DeviceScene
+    std::vector<Light> lights;       // endlessly far ones first
+    Sky sky{};                       // but for its addresses
+    std::vector<SkyTexel> skyTexels; // none: there is no sky
+    std::vector<float> skyRows;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
     std::vector<float> targetWeights; // see DeviceScene
