@@ -10,29 +10,6 @@
 #include "shared_scene.h"
 #include "terminator.glsl"
 
-// A shadow ray to a point of a light that was chosen with a probability, and what it brings if nothing is in its way:
-// the radiance that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts
-// at `origin`, on the side of `normal`, which is the geometric one.
-ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3 origin, uint from, vec3 normal,
-                         vec3 shading, float bulge, vec3 weight, uint column, vec2 place) {
-    LightView seen = viewLight(scene, light, origin, place);
-    vec3 w = seen.w;
-    float cosine = cosineOfArrival(w, normal, shading, bulge) * diffuseArrivalAt(scene, from, dot(w, shading));
-    vec3 radiance = seen.radiance * (cosine * seen.inversePdf / (PI * probability)) * weight;
-    uint flags = seen.flags | (goesThrough(w, normal, bulge) ? SHADOW_THROUGH : 0u);
-    return ShadowRay(origin, from, seen.target, radiance, column, flags);
-}
-
-// That of a light chosen for light samples.
-ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, vec3 shading, float bulge, vec3 weight,
-                       uint column, vec2 choice, vec2 place) {
-    uint chosen = chooseLight(scene, scene.directCdf, choice.x);
-    Light light = LightPtr(scene.lights).at[chosen];
-    requireLight(scene, light);
-    return sampleDirectOf(scene, light, lightProbability(scene.directCdf, chosen), origin, from, normal, shading, bulge,
-                          weight, column, place);
-}
-
 // The weight of a light sample that the lobe's own samples, of a density, would find as well, and of theirs (the
 // balance heuristic of Veach & Guibas 1995): the light sample stands for the solid angle `inversePdf`, its choice
 // included.
@@ -41,6 +18,33 @@ float lightSampleWeight(float inversePdf, float pdf) { return 1.0 / (1.0 + pdf *
 float lobeSampleWeight(float inversePdf, float pdf) {
     float x = pdf * inversePdf;
     return x < GREATEST ? x / (1.0 + x) : 1.0;
+}
+
+// A shadow ray to a point of a light that was chosen with a probability, and what it brings if nothing is in its way:
+// the radiance that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts
+// at `origin`, on the side of `normal`, which is the geometric one. If `alsoFound`, a ray by the cosine law finds lights
+// that are endlessly far as well.
+ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3 origin, uint from, vec3 normal,
+                         vec3 shading, float bulge, vec3 weight, uint column, vec2 place, bool alsoFound) {
+    LightView seen = viewLight(scene, light, origin, place);
+    vec3 w = seen.w;
+    float arrival = cosineOfArrival(w, normal, shading, bulge);
+    float cosine = arrival * diffuseArrivalAt(scene, from, dot(w, shading));
+    if (hasEndless && alsoFound && (seen.flags & SHADOW_ENDLESS) != 0u)
+        cosine *= lightSampleWeight(seen.inversePdf / probability, unpackPdf(packPdf(arrival / PI)));
+    vec3 radiance = seen.radiance * (cosine * seen.inversePdf / (PI * probability)) * weight;
+    uint flags = seen.flags | (goesThrough(w, normal, bulge) ? SHADOW_THROUGH : 0u);
+    return ShadowRay(origin, from, seen.target, radiance, column, flags);
+}
+
+// That of a light chosen for light samples.
+ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, vec3 shading, float bulge, vec3 weight,
+                       uint column, vec2 choice, vec2 place, bool alsoFound) {
+    uint chosen = chooseLight(scene, scene.directCdf, choice.x);
+    Light light = LightPtr(scene.lights).at[chosen];
+    requireLight(scene, light);
+    return sampleDirectOf(scene, light, lightProbability(scene.directCdf, chosen), origin, from, normal, shading, bulge,
+                          weight, column, place, alsoFound);
 }
 
 // That of a glossy lobe about n, in place of the cosine law.

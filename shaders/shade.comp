@@ -79,11 +79,18 @@ void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surf
 }
 
 // The same of the lights that are endlessly far.
-void addBeyond(inout Vertex vertex, DeviceScene scene, Path path) {
+void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
     if (activeIntegrator() == INTEGRATOR_PHOTON_MAP || (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u)) return;
     bool direct = diffuseCount(path.flags) == 0u && (path.flags & PATH_EYE_SPECULAR) == 0u;
     if (hasSky && direct && SkyPtr(scene.sky).at[0].visible == 0u) return;
-    if (findsLight(vertex, path))
+    // A gather ray carries its share of direct light: splits have the rest, by light samples.
+    uint layer = layerOf(path, LAYER_DIRECT);
+    if (diffuseCount(path.flags) == 1u && (path.flags & PATH_SPECULARS) == 0u && pdfOf(path.flags) > 0.0) {
+        if (!hasLayer(layer)) return;
+        vertex.emissionColumn = layerColumn(layer);
+        path.throughput *= args.splits.at[slot].throughput;
+        vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
+    } else if (findsLight(vertex, path))
         vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
 }
 
@@ -94,7 +101,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (!hasLayer(layer)) return;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
-                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
+                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), false);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
@@ -210,7 +217,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     if (!hasEndless && hit.primitive == NONE) return vertex;
     DeviceScene scene = args.scene.at[0];
     if (hasEndless && hit.primitive == NONE) {
-        addBeyond(vertex, scene, path);
+        addBeyond(vertex, scene, path, slot);
         return vertex;
     }
     Surface surface = surfaceAt(scene, path, hit);

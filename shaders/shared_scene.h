@@ -100,13 +100,15 @@ struct Target {
 };
 BUFFER(Target)
 
-/// A pinhole camera; the ray of film position (x, y) in [0, 1]^2, y down, has the direction
+/// A camera; through the middle of its lens the ray of film position (x, y) in [0, 1]^2, y down, has the direction
 /// forward + (2 x - 1) right + (1 - 2 y) up, where |right| and |up| are the tangents of the half angles.
 struct Camera {
     vec3 origin;
     vec3 forward;
     vec3 right;
     vec3 up;
+    float aperture; // radius of its lens: 0 of a pinhole
+    float focus;    // how far the plane is that is sharp, along the axis
 };
 
 /// Addresses of the arrays of a scene; what a scene lacks has address 0.
@@ -125,7 +127,8 @@ struct DeviceScene {
     ADDRESS(Sky) sky;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
     Target lit;            // about all that light falls upon
-    Target near;           // about all but far lights
+    Target near;                  // about all but far lights
+    Target middle;                // of what is lit, leaving out few shapes that are much larger; no radius: there is none
     uint triangleCount;
     uint lightCount;
     uint endlessCount; // of the first lights

@@ -47,6 +47,10 @@ int execute(const RenderOptions& options) {
         job.begin();
         renderPasses(job, options);
         if (!job.finish()) return 130;
+        if (settings.autoExposure && !options.quiet)
+            say("the PNG shows an exposure of {0} stops, by the picture's brightness; "
+                "\"film\": {{\"exposure\": {0}}} keeps it",
+                job.exposure());
         return interrupted() ? 130 : 0;
     });
 }

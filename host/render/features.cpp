@@ -86,6 +86,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
+    features.hasLens = scene.view.lens.aperture > 0;
     features.hasGuide = 0; // the renderer finds out
     uint farLights = 0;
     for (const Light& light : scene.lights)

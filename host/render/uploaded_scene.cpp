@@ -51,6 +51,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .missing = missing,
               .lit = scene.lit,
               .near = scene.near,
+              .middle = scene.middle,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
               .endlessCount = static_cast<uint>(std::ranges::count_if(scene.lights, isEndless)),

@@ -84,6 +84,37 @@ Target sphereOfNear(const Scene& scene) {
                     [&](const Primitive& p) { return p.light == NONE || !isFar(scene, scene.lights[p.light]); });
 }
 
+/// The distance from a place within which boxes lie, where it jumps, from the third part of them on; 0 if it does not.
+static double reachOfMost(const std::vector<Bounds>& boxes, dvec3 center) {
+    const double jump = 8;
+    std::vector<double> reaches;
+    for (const Bounds& box : boxes)
+        reaches.push_back(glm::length(glm::max(glm::abs(dvec3{box.low} - center), glm::abs(dvec3{box.high} - center))));
+    std::ranges::sort(reaches);
+    for (std::size_t i = (reaches.size() + 2) / 3; i < reaches.size(); i++)
+        if (reaches[i] > jump * reaches[i - 1]) return reaches[i - 1];
+    return 0;
+}
+
+Target sphereOfMiddle(const Scene& scene) {
+    std::vector<Bounds> boxes;
+    if (std::ranges::none_of(scene.lights, isEndless)) return {vec3{0}, 0};
+    for (std::size_t i = 0; i < scene.primitives.size(); i++)
+        if (const Primitive& p = scene.primitives[i]; p.light == NONE || scene.materials[p.material].color != vec3{0})
+            boxes.push_back(boxOf(p, i >= scene.triangleCount));
+    if (boxes.size() < 3) return {vec3{0}, 0};
+    dvec3 center{0};
+    for (int axis = 0; axis < 3; axis++) {
+        std::vector<double> middles;
+        for (const Bounds& box : boxes) middles.push_back(0.5 * (double{box.low[axis]} + double{box.high[axis]}));
+        const auto middle = middles.begin() + std::ptrdiff_t(middles.size() / 2);
+        std::ranges::nth_element(middles, middle);
+        center[axis] = *middle;
+    }
+    const double room = 2;
+    return {vec3{center}, static_cast<float>(room * reachOfMost(boxes, center))};
+}
+
 bool isFar(const Scene& scene, const Light& light) {
     if (isEndless(light)) return false;
     const dvec3 a = dvec3{light.a} - dvec3{scene.lit.center}, u{light.u}, v{light.v};

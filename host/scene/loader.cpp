@@ -12,6 +12,7 @@
 #include "scene/sky.h"
 #include "scene/text.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -20,6 +21,28 @@ using glm::dvec3;
 namespace {
 
 constexpr std::size_t manyShapes = 10'000'000;
+
+/// By its radius, or as photographers say it.
+Lens readLens(Reader& camera, double unit) {
+    const auto aperture = camera.find("aperture"), focus = camera.find("focusDistance"), stop = camera.find("fStop"),
+               length = camera.find("focalLength"), meters = camera.find("unit");
+    double radius = aperture ? double{aperture->number(notNegative)} : 0;
+    if (stop || length || meters) {
+        if (aperture) aperture->fail("found \"aperture\" beside \"fStop\"", "give one of them");
+        if (!stop || !length)
+            (stop     ? *stop
+             : length ? *length
+                      : *meters)
+                .fail("found one of \"fStop\", \"focalLength\" and \"unit\" without the others",
+                      "give \"fStop\" and \"focalLength\" (mm), and \"unit\" if a world unit is no meter");
+        const double perUnit = meters ? double{meters->number(positive)} : 1;
+        radius = double{length->number(positive)} / 1000 / perUnit / (2 * double{stop->number(positive)});
+    }
+    const Lens lens{static_cast<float>(radius / unit),
+                    focus ? static_cast<float>(double{focus->number(positive)} / unit) : 0.0f};
+    if (!std::isfinite(lens.aperture)) camera.fail("the aperture overflows", "give a smaller one");
+    return lens;
+}
 
 View readView(Reader camera, const Coordinates& coordinates) {
     View view{.coordinates = coordinates};
@@ -30,6 +53,7 @@ View readView(Reader camera, const Coordinates& coordinates) {
     if (up) view.up = up->vector();
     if (const auto degrees = camera.find("fieldOfView"))
         view.fieldOfView = glm::radians(degrees->number({0, 179, true}));
+    view.lens = readLens(camera, coordinates.unit);
     camera.finish();
 
     if (view.target == view.origin) targetReader.fail("the target is the origin", "let the camera look somewhere else");
@@ -49,7 +73,11 @@ void readFilm(Reader film, Settings& settings) {
             size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y),
                        "allowed are 2^28 in all");
     }
-    if (const auto exposure = film.find("exposure")) settings.exposure = exposure->number({-100, 100});
+    if (const auto exposure = film.find("exposure")) {
+        settings.autoExposure = exposure->isText();
+        if (settings.autoExposure) (void)exposure->choice({"auto"});
+        else settings.exposure = exposure->number({-100, 100});
+    }
     film.finish();
 }
 
@@ -140,8 +168,7 @@ void addImport(Import& import, Scene& scene, std::map<std::string, uint>& indice
             if (loader.add(part.place, part.mesh, instance.transform, surfaces[part.material]) > 0)
                 import.lose(part.place, "triangles without an area are left out");
         }
-    const Reader lamps = import.lamps();
-    for (std::size_t i = 0; i < lamps.count(0, NONE, ""); ++i) loader.add(lamps.element(i));
+    addLamps(import.lamps(), scene, loader);
 }
 
 void readScene(Reader root, Scene& scene) {
@@ -157,6 +184,8 @@ void readScene(Reader root, Scene& scene) {
     const auto shapes = importReader ? root.find("shapes") : root.at("shapes");
     root.finish();
 
+    // What brings light of any strength is shown at its own, unless the scene says how.
+    scene.settings.autoExposure = importReader || environment || lights;
     if (camera) (void)readView(*camera, {}); // what is wrong with it comes first
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
@@ -164,9 +193,16 @@ void readScene(Reader root, Scene& scene) {
     if (materials) indices = readMaterials(*materials, scene);
 
     if (environment) readEnvironment(*environment, scene);
+    if (environment && scene.sky.visible == 0) {
+        scene.settings.coverage = true;
+        scene.settings.layers |= 1u << ASK_DEPTH; // which knows what is covered
+    }
     if (lights) addSuns(*lights, scene);
     std::optional<Import> import;
-    if (importReader) noteFiles(scene, import.emplace(*importReader).files());
+    if (importReader) {
+        noteFiles(scene, import.emplace(*importReader).files());
+        addSuns(import->lamps(), scene);
+    }
     if (!camera) camera = importedCamera(*import, film, scene.settings);
     ShapeLoader loader{scene, indices};
     const std::size_t count = shapes ? shapes->count(1, manyShapes, "an array of shapes, at least one") : 0;
@@ -218,6 +254,7 @@ Scene loadScene(const std::filesystem::path& file) {
     measureEndless(scene);
     chooseLights(scene, file);
     scene.near = sphereOfNear(scene);
+    scene.middle = sphereOfMiddle(scene);
 
     addBvh(scene);
     return scene;

@@ -17,6 +17,14 @@ struct Bounds {
     vec3 high{-std::numeric_limits<float>::infinity()};
 };
 
+/// A lens in the unit of length of the scene; none of radius 0.
+struct Lens {
+    float aperture = 0; // radius
+    float focus = 0;    // distance along the axis; 0: that of the target
+
+    bool operator==(const Lens&) const = default;
+};
+
 /// Where the camera stands and looks; the field of view is vertical, in radians.
 struct View {
     vec3 origin{0, 0, 1};
@@ -24,6 +32,7 @@ struct View {
     vec3 up{0, 1, 0};
     float fieldOfView = glm::radians(40.0f);
     Coordinates coordinates{}; // of origin and target
+    Lens lens{};
 
     bool operator==(const View&) const = default;
 };
@@ -49,6 +58,7 @@ struct Scene {
     std::vector<float> targetWeights; // see DeviceScene
     Target lit{vec3{0}, 0};           // about all that light falls upon
     Target near{vec3{0}, 0};          // about all but far lights
+    Target middle{vec3{0}, 0};        // see DeviceScene
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
     vec3 flux{0};       // of all lights, W over the square of the unit of length
@@ -65,7 +75,7 @@ Scene loadScene(const std::filesystem::path& file);
 /// Adds files to those that were read, each once.
 void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files);
 
-/// The pinhole camera of a view for a film of `size` pixels.
+/// The camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);
 
 } // namespace vkpm

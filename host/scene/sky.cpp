@@ -4,6 +4,7 @@
 #include "scene/lights.h"
 #include "scene/luminance.h"
 #include "scene/text.h"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -32,6 +33,30 @@ void layOut(Sky& sky, dvec3 up, double degrees) {
     sky.front = place({0, 0, -1});
     sky.right = place({1, 0, 0});
     sky.up = vec3{up};
+}
+
+const uint smoothWidth = 1024; // smaller pictures are made that wide, at least
+
+/// Between the middles of texels, bilinear, so that the texels of a small picture do not show. Its columns close.
+Raster smoothed(const Raster& image) {
+    const uint factor = (smoothWidth + image.width - 1) / image.width;
+    Raster result{image.width * factor, image.height * factor, {}};
+    result.texels.reserve(std::size_t(result.width) * result.height);
+    const auto at = [&](std::int64_t x, std::int64_t y) {
+        const auto column = std::size_t((x + image.width) % image.width);
+        return dvec3{image.texels[std::size_t(std::clamp<std::int64_t>(y, 0, image.height - 1)) * image.width + column]};
+    };
+    for (uint y = 0; y < result.height; y++) {
+        const double v = (y + 0.5) / factor - 0.5, row = std::floor(v);
+        for (uint x = 0; x < result.width; x++) {
+            const double u = (x + 0.5) / factor - 0.5, column = std::floor(u);
+            const auto i = std::int64_t(column), j = std::int64_t(row);
+            const dvec3 upper = glm::mix(at(i, j), at(i + 1, j), u - column),
+                        lower = glm::mix(at(i, j + 1), at(i + 1, j + 1), u - column);
+            result.texels.emplace_back(glm::mix(upper, lower, v - row));
+        }
+    }
+    return result;
 }
 
 /// Tables by luminance, and the light, whose radiance is the mean over all directions.
@@ -84,7 +109,8 @@ Raster readSkyImage(const Reader& reader, Scene& scene) {
         reader.fail(fmt::format("{}: {}", printable(file.string()), problem),
                     "give an OpenEXR or Radiance file, relative to the scene file");
     noteFiles(scene, {file});
-    return decode(reader, file);
+    Raster image = decode(reader, file);
+    return image.width < smoothWidth && image.height <= image.width ? smoothed(image) : image;
 }
 
 } // namespace
