@@ -39,20 +39,30 @@ void aimAtDiscs(DeviceScene scene, vec2 u, float choice, inout Aim aim) {
     aim.weight = total / (scene.lit.radius * scene.lit.radius * discsAt(scene, aim, chosen));
 }
 
-// About the middle of what is lit, of half of the photons, or about all: where the ground goes on to the horizon few of
-// the others would come to where there is anything to see. The guide may change the halves.
-void aimAtMiddle(DeviceScene scene, vec2 u, float choice, inout Aim aim) {
-    bool middle = choice < 0.5;
+// Of the discs about all that is lit: those about its middle, each four times as wide as the one before, the last about
+// all.
+Target litDisc(DeviceScene scene, uint index) {
     Target target = scene.lit;
-    if (middle) target = scene.middle;
-    aim.anchor = pointOfDisc(target, aim.direction, u);
-    vec3 fromLit = cross(aim.anchor - scene.lit.center, aim.direction);
-    vec3 fromMiddle = cross(aim.anchor - scene.middle.center, aim.direction);
-    float lit2 = scene.lit.radius * scene.lit.radius, middle2 = scene.middle.radius * scene.middle.radius;
+    if (index + 1u < scene.discCount) {
+        target = scene.middle;
+        for (uint i = 0u; i < index; i++) target.radius *= 4.0;
+    }
+    return target;
+}
+
+// As many photons for each disc, so that there are fewer the farther from the middle, as there it is seen under smaller
+// angles: where the ground goes on to the horizon few would else come to where there is anything to see.
+void aimAtMiddle(DeviceScene scene, vec2 u, float choice, inout Aim aim) {
+    uint chosen = min(uint(choice * float(scene.discCount)), scene.discCount - 1u);
+    aim.anchor = pointOfDisc(litDisc(scene, chosen), aim.direction, u);
     float density = 0.0;
-    if (!middle || dot(fromLit, fromLit) <= lit2) density += 0.5;
-    if (middle || dot(fromMiddle, fromMiddle) <= middle2) density += 0.5 * (lit2 / middle2);
-    aim.weight = 1.0 / density;
+    for (uint i = 0u; i < scene.discCount; i++) {
+        Target target = litDisc(scene, i);
+        vec3 across = cross(aim.anchor - target.center, aim.direction);
+        float part = scene.lit.radius / target.radius;
+        if (i == chosen || dot(across, across) <= target.radius * target.radius) density += part * part;
+    }
+    aim.weight = float(scene.discCount) / density;
 }
 
 // The way of a photon by the numbers that start it; its colour is in `color`. The flux of such a light is what comes
@@ -63,7 +73,7 @@ Aim aimFromAfar(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIONS
     Aim aim = Aim(vec3(0.0), -point.w, 1.0, true);
     if (caustic && scene.targetCount == 0u) aim.weight = 0.0;
     else if (caustic) aimAtDiscs(scene, u, numbers[PRIMARY_TARGET], aim);
-    else if (scene.middle.radius > 0.0) aimAtMiddle(scene, u, numbers[PRIMARY_TARGET], aim);
+    else if (scene.discCount > 1u) aimAtMiddle(scene, u, numbers[PRIMARY_TARGET], aim);
     else aim.anchor = pointOfDisc(scene.lit, aim.direction, u);
     float fluxOfAll = PI * light.area * luminance(light.radiance);
     float disc = PI * scene.lit.radius * scene.lit.radius;

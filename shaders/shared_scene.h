@@ -128,10 +128,11 @@ struct DeviceScene {
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
     Target lit;            // about all that light falls upon
     Target near;                  // about all but far lights
-    Target middle;                // of what is lit, leaving out few shapes that are much larger; no radius: there is none
+    Target middle;                // of what is lit, leaving out few shapes that are much larger
     uint triangleCount;
     uint lightCount;
     uint endlessCount; // of the first lights
+    uint discCount;    // across directions from endlessly far: the middle's, each four times as wide, and that of `lit`
     uint targetCount;
     float unit; // of lengths, in world units: a power of two
     Camera camera;

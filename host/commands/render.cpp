@@ -7,6 +7,7 @@
 #include "output/atomic_file.h"
 #include "output/messages.h"
 #include "output/progress.h"
+#include "render/explain.h"
 
 namespace vkpm {
 
@@ -30,6 +31,7 @@ int execute(const RenderOptions& options) {
     for (const std::string& warning : scene.warnings) warn(warning);
     requireFilesApart(options, scene.files);
     const Settings settings = options.settingsOf(scene.settings);
+    if (const std::string blind = blindness(scene, settings); !blind.empty()) warn(blind);
 
     requireWritable(options.output);
     requireWritable(pngBeside(options.output));

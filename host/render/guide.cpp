@@ -58,7 +58,7 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[PRIMARY_LIGHT] = scene.lights.size() > 1;
     axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[PRIMARY_TARGET] = scene.targets.size() > 1;
-    middle = scene.middle.radius > 0;
+    middle = scene.discCount > 1;
     lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
     global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) {
                  return isEndless(light) || isFar(scene, light);

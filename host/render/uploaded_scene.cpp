@@ -55,6 +55,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
               .endlessCount = static_cast<uint>(std::ranges::count_if(scene.lights, isEndless)),
+              .discCount = scene.discCount,
               .targetCount = static_cast<uint>(scene.targets.size()),
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);

@@ -96,13 +96,13 @@ static double reachOfMost(const std::vector<Bounds>& boxes, dvec3 center) {
     return 0;
 }
 
-Target sphereOfMiddle(const Scene& scene) {
+void findMiddle(Scene& scene) {
     std::vector<Bounds> boxes;
-    if (std::ranges::none_of(scene.lights, isEndless)) return {vec3{0}, 0};
+    if (std::ranges::none_of(scene.lights, isEndless)) return;
     for (std::size_t i = 0; i < scene.primitives.size(); i++)
         if (const Primitive& p = scene.primitives[i]; p.light == NONE || scene.materials[p.material].color != vec3{0})
             boxes.push_back(boxOf(p, i >= scene.triangleCount));
-    if (boxes.size() < 3) return {vec3{0}, 0};
+    if (boxes.size() < 3) return;
     dvec3 center{0};
     for (int axis = 0; axis < 3; axis++) {
         std::vector<double> middles;
@@ -111,8 +111,10 @@ Target sphereOfMiddle(const Scene& scene) {
         std::ranges::nth_element(middles, middle);
         center[axis] = *middle;
     }
-    const double room = 2;
-    return {vec3{center}, static_cast<float>(room * reachOfMost(boxes, center))};
+    const double room = 2, radius = room * reachOfMost(boxes, center);
+    if (radius == 0) return;
+    scene.middle = {vec3{center}, static_cast<float>(radius)};
+    for (double wide = radius; wide < double{scene.lit.radius}; wide *= 4) scene.discCount++;
 }
 
 bool isFar(const Scene& scene, const Light& light) {

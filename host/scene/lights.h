@@ -31,9 +31,9 @@ Target sphereOfLit(const Scene& scene);
 /// The sphere about all but far lights, a little wide, so that photons may start on it.
 Target sphereOfNear(const Scene& scene);
 
-/// About the middle of what is lit, if few primitives reach much farther than the others, such as the ground of a
-/// meadow: of radius 0 if there are no such.
-Target sphereOfMiddle(const Scene& scene);
+/// Fills `middle`, about the middle of what is lit, if few primitives reach much farther than the others, such as the
+/// ground of a meadow, and `discCount`.
+void findMiddle(Scene& scene);
 
 /// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in
 /// projection_map.glsl.

@@ -254,7 +254,7 @@ Scene loadScene(const std::filesystem::path& file) {
     measureEndless(scene);
     chooseLights(scene, file);
     scene.near = sphereOfNear(scene);
-    scene.middle = sphereOfMiddle(scene);
+    findMiddle(scene);
 
     addBvh(scene);
     return scene;

@@ -59,6 +59,7 @@ struct Scene {
     Target lit{vec3{0}, 0};           // about all that light falls upon
     Target near{vec3{0}, 0};          // about all but far lights
     Target middle{vec3{0}, 0};        // see DeviceScene
+    uint discCount = 1;               // likewise
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
     vec3 flux{0};       // of all lights, W over the square of the unit of length
