@@ -22,8 +22,8 @@ float lobeSampleWeight(float inversePdf, float pdf) {
 
 // A shadow ray to a point of a light that was chosen with a probability, and what it brings if nothing is in its way:
 // the radiance that leaves the surface times `weight`, which is zero if the light cannot be seen at all. The ray starts
-// at `origin`, on the side of `normal`, which is the geometric one. If `alsoFound`, a ray by the cosine law finds lights
-// that are endlessly far as well.
+// at `origin`, on the side of `normal`, which is the geometric one. If `alsoFound`, a ray by the cosine law finds
+// lights that are endlessly far as well.
 ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3 origin, uint from, vec3 normal,
                          vec3 shading, float bulge, vec3 weight, uint column, vec2 place, bool alsoFound) {
     LightView seen = viewLight(scene, light, origin, place);

@@ -25,12 +25,14 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
                   out vec3 color) {
     LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
     if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
-    bool bare = isDelta(light);
+    bool bare = isDelta(light), beam = isBeam(light);
     if (bare) point = LightPoint(light.a, abs(light.a), vec3(0.0));
 
+    vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
     vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
     if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
     else if (bare) aim = aimBare(scene, light, point, u);
+    else if (beam) aim = aimBeam(light, point, place, u);
     else aim = aimAtLit(scene, point, u);
     origin = offsetPoint(point.position, point.magnitude, point.normal);
     if (aim.remote) {
@@ -38,7 +40,10 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
         if (hasFarLights > 1u && aim.weight > 0.0 && occluded(scene, entered, origin, NONE)) aim.weight = 0.0;
         origin = entered;
     }
-    if (bare) aim.weight *= 4.0 / light.area * beam(light, aim.direction); // the area is solid angle over pi
+    // The area is flux over pi times radiance.
+    if (bare) aim.weight *= 4.0 / light.area;
+    else if (beam) aim.weight *= 4.0 * PI * light.u.x * light.u.x / light.area;
+    if (bare || beam) aim.weight *= partOfBeam(light, aim.direction);
     color = light.radiance / luminance(light.radiance);
 }
 

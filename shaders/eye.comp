@@ -1,4 +1,5 @@
-// Starts one path per pixel at the camera, on its lens if it has one, at a place within the pixel that differs from pass to pass (box filter).
+// Starts one path per pixel at the camera, on its lens if it has one, at a place within the pixel that differs from
+// pass to pass (box filter).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "camera.glsl"

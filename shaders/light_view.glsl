@@ -28,7 +28,7 @@ LightView viewLight(DeviceScene scene, Light light, vec3 origin, vec2 place) {
         vec3 toLight = light.a - origin;
         float distance2 = dot(toLight, toLight);
         vec3 w = toLight * inversesqrt(distance2);
-        return LightView(w, light.radiance * beam(light, -w), 1.0 / distance2, light.a, 0u, false);
+        return LightView(w, light.radiance * partOfBeam(light, -w), 1.0 / distance2, light.a, 0u, false);
     }
     LightSample seen = sampleLight(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);

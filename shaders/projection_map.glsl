@@ -89,16 +89,26 @@ Aim aimBare(DeviceScene scene, Light light, LightPoint point, vec2 u) {
     float distance2 = dot(d, d);
     bool far = hasFarLights != 0u && distance2 > 4.0 * scene.lit.radius * scene.lit.radius;
     float lit = coneHeight(scene.lit.radius, max(distance2, scene.lit.radius * scene.lit.radius));
-    float height = isSpot(light) ? light.v.x : 2.0;
+    float height = isBeam(light) ? beamOf(light).height : 2.0;
     Aim aim = Aim(point.position, uniformSphere(u), 1.0, false);
     if (far && lit < height) {
         aim = aimInCone(scene, scene.lit, point.position, d, distance2, u);
         height = lit;
-    } else if (isSpot(light)) {
-        aim.direction = toWorld(uniformCone(u, height), light.u);
+    } else if (isBeam(light)) {
+        aim.direction = toWorld(uniformCone(u, height), beamOf(light).axis);
     }
     aim.weight = 0.5 * height;
     return aim;
+}
+
+// From a ball with a beam: a direction uniform over the outer cone, from a point of the disc that the ball fills as
+// seen from there. `point` becomes that on the ball.
+Aim aimBeam(Light light, inout LightPoint point, vec2 place, vec2 u) {
+    Beam beam = beamOf(light);
+    vec3 w = toWorld(uniformCone(u, beam.height), beam.axis);
+    point.normal = toWorld(cosineHemisphere(place), w);
+    point.position = light.a + light.u.x * point.normal;
+    return Aim(point.position, w, 0.5 * beam.height, false);
 }
 
 // The way of a photon for the global map: by the cosine law or, from where it would hardly ever meet anything, uniform

@@ -127,8 +127,8 @@ struct DeviceScene {
     ADDRESS(Sky) sky;
     ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
     Target lit;            // about all that light falls upon
-    Target near;                  // about all but far lights
-    Target middle;                // of what is lit, leaving out few shapes that are much larger
+    Target near;           // about all but far lights
+    Target middle;         // of what is lit, leaving out few shapes that are much larger
     uint triangleCount;
     uint lightCount;
     uint endlessCount; // of the first lights

@@ -24,9 +24,9 @@ bool gathers(Split from) {
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
-                                 args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
-                                 gathers(from));
+    ShadowRay ray =
+        sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
+                     args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u), gathers(from));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
@@ -36,8 +36,7 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
-    if (hasEndless)
-        flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
+    if (hasEndless) flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
     float arrival = diffuseArrivalAt(args.scene.at[0], from.from, dot(direction, from.shading));
     args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags);
     return true;

@@ -157,7 +157,8 @@ TEST(Gltf, LampsHaveTheirIrradiance) {
         const Scene loaded = loadJson(scene);
         const Light& light = loaded.lights.at(0);
         if (light.kind == LIGHT_POINT) return light.radiance.x / (distance * distance);
-        const double size = light.kind == LIGHT_SUN ? double{light.u.x} : light.u.x / distance; // sine of half its angle
+        const double size =
+            light.kind == LIGHT_SUN ? double{light.u.x} : light.u.x / distance; // sine of half its angle
         return std::numbers::pi * light.radiance.x * size * size;
     };
     lamp = {{"type", "point"}, {"intensity", 543.5}};

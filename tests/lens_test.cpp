@@ -15,7 +15,7 @@ using testing::HasSubstr;
 /// The left half of the plane z = -4 shines, seen from the origin.
 json edgeScene() {
     return json::parse(R"({
-        "camera": {"origin": [0, 0, 0], "target": [0, 0, -1], "fieldOfView": 40},
+        "camera": {"origin": [0, 0, 0], "target": [0, 0, -1], "fieldOfView": 2.5},
         "film": {"size": [64, 16]}, "settings": {"layers": ["emission", "depth"]},
         "shapes": [{"type": "rectangle", "corner": [-9, -9, -4], "edges": [[9, 0, 0], [0, 18, 0]], "emission": 1}]})");
 }
@@ -56,7 +56,7 @@ TEST(Lens, SeesSharplyWhereItIsFocused) {
 TEST(Lens, BlursByItsFormula) {
     json scene = edgeScene();
     scene["camera"]["aperture"] = 0.2;
-    const double tangent = std::tan(20 * pi / 180);
+    const double tangent = std::tan(1.25 * pi / 180);
     for (const double focus : {2.0, 3.0, 40.0}) {
         scene["camera"]["focusDistance"] = focus;
         const std::vector<Pixel> pixels = render(scene, 256);
@@ -71,7 +71,7 @@ TEST(Lens, BlursByItsFormula) {
         const double pixel = 8 * tangent / 64, radius = 0.2 * std::abs(1 / focus - 0.25);
         const double variance = square - mean * mean - pixel * pixel / 6; // of two box filters
         std::printf("focus %g: radius %.5f, by formula %.5f\n", focus, 2 * std::sqrt(variance), radius);
-        EXPECT_NEAR(mean, 0, 0.1 * pixel);
+        EXPECT_NEAR(mean, 0, 0.3 * pixel);
         EXPECT_NEAR(2 * std::sqrt(variance), radius, 0.03 * radius + 2e-4) << focus;
     }
 }
@@ -110,10 +110,11 @@ TEST(Lens, LightTracingSeesThroughIt) {
     for (int part = 0; part < 4; part++) {
         const Estimate light = estimate(thirds[0][part]), photon = estimate(thirds[1][part]),
                        path = estimate(thirds[2][part]);
-        std::printf("part %d: light %.5f +- %.5f photon %.5f +- %.5f path %.5f +- %.5f\n", part, light.mean, light.error,
-                    photon.mean, photon.error, path.mean, path.error);
+        std::printf("part %d: light %.5f +- %.5f photon %.5f +- %.5f path %.5f +- %.5f\n", part, light.mean,
+                    light.error, photon.mean, photon.error, path.mean, path.error);
         EXPECT_NEAR(light.mean, path.mean, 5 * std::hypot(light.error, path.error) + 1e-4) << part;
-        EXPECT_NEAR(light.mean, photon.mean, 5 * std::hypot(light.error, photon.error) + 0.02 * light.mean + 1e-4) << part;
+        EXPECT_NEAR(light.mean, photon.mean, 5 * std::hypot(light.error, photon.error) + 0.02 * light.mean + 1e-4)
+            << part;
     }
 }
 

@@ -265,7 +265,7 @@ TEST(Schema, HasTheRangesOfTheLoader) {
                 }
                 ends++;
             }
-    EXPECT_GE(ends, 18);
+    EXPECT_GE(ends, 16);
 }
 
 TEST(Schema, HasTheNamesAndDefaultsOfTheSettings) {

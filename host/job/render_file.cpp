@@ -79,7 +79,8 @@ void saveRender(const std::filesystem::path& output, const Film& film, const Set
     const std::uint64_t clamped = writeExr(output, settings.size, attributes, [&](uint row, uint rows) {
         const FilmRows block = film.rows(row, rows);
         const std::vector<Pixel>& pixels = block.pixels;
-        std::ranges::copy(develop(pixels, exposure, settings.coverage), picture.begin() + std::ptrdiff_t(row) * settings.size.x);
+        std::ranges::copy(develop(pixels, exposure, settings.coverage),
+                          picture.begin() + std::ptrdiff_t(row) * settings.size.x);
         Image image = filmImage(pixels, {settings.size.x, rows}, settings.layers, settings.coverage);
         if (keeping.half)
             for (Channel& channel : image.channels)

@@ -33,8 +33,8 @@ int paeth(int left, int up, int corner) {
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/// Rows of `channels` bytes a pixel, 3 or 4, each with a byte before it that says by which filter it was predicted: none, left, up, or
-/// Paeth's, whichever leaves the least sum of differences.
+/// Rows of `channels` bytes a pixel, 3 or 4, each with a byte before it that says by which filter it was predicted:
+/// none, left, up, or Paeth's, whichever leaves the least sum of differences.
 Bytes filtered(uvec2 size, std::span<const uint> rgba8, std::size_t channels) {
     const std::size_t width = channels * std::size_t(size.x);
     Bytes result, before(width + channels, 0), row(width + channels, 0); // zeros to the left
@@ -47,7 +47,8 @@ Bytes filtered(uvec2 size, std::span<const uint> rgba8, std::size_t channels) {
                 row[channels + channels * x + c] = static_cast<unsigned char>(rgba8[y * size.x + x] >> 8 * c & 255u);
         std::array<std::uint64_t, 4> sums{};
         for (std::size_t i = 0; i < width; i++) {
-            const std::array<int, 4> predicted{0, row[i], before[i + channels], paeth(row[i], before[i + channels], before[i])};
+            const std::array<int, 4> predicted{0, row[i], before[i + channels],
+                                               paeth(row[i], before[i + channels], before[i])};
             for (std::size_t f = 0; f < 4; f++) {
                 tried[f][i] = static_cast<unsigned char>(row[i + channels] - predicted[f]);
                 sums[f] += static_cast<std::uint64_t>(std::abs(static_cast<signed char>(tried[f][i])));
@@ -77,7 +78,8 @@ std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8, bool alpha)
     Bytes header;
     for (const uint side : {size.x, size.y})
         for (const uint shift : {24u, 16u, 8u, 0u}) header.push_back(static_cast<unsigned char>(side >> shift & 255u));
-    header.insert(header.end(), {8, static_cast<unsigned char>(alpha ? 6 : 2), 0, 0, 0}); // bits, RGB or RGBA, deflate, filters by row, not interlaced
+    header.insert(header.end(), {8, static_cast<unsigned char>(alpha ? 6 : 2), 0, 0,
+                                 0}); // bits, RGB or RGBA, deflate, filters by row, not interlaced
     constexpr std::string_view SIGNATURE = "\x89PNG\r\n\x1a\n";
     std::vector<char> png(SIGNATURE.begin(), SIGNATURE.end());
     appendChunk(png, "IHDR", header);

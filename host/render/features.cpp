@@ -78,7 +78,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     });
     features.materialKinds = features.lightKinds = 0;
     for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
-    for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
+    for (const Light& light : scene.lights) {
+        features.lightKinds |= 1u << light.kind;
+        if (light.kind == LIGHT_SPHERE && light.v != vec3{0}) features.lightKinds |= 1u << LIGHT_SPOT; // has its beam
+    }
     const bool glass = hasMaterials(features, GLASS_KINDS);
     features.hasContact = glass && glassMayTouchOpaque(scene);
     features.hasTint = anyMaterial([](const Material& m) { return isGlass(m) && m.color != vec3(1); });

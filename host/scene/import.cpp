@@ -223,7 +223,7 @@ void Import::addLamp(const GltfPlaced& lamp) {
     json point{{"type", kind == 1 ? "point" : "spot"},
                {"position", placeJson(place)},
                {"intensity", placeJson(units.intensity * strength * color)}};
-    if (kind == 1 && lampRadius) point["radius"] = *lampRadius;
+    if (lampRadius) point["radius"] = *lampRadius;
     if (kind == 2) addCones(light, -backwards, point);
     lampsJson.push_back(point);
 }

@@ -66,7 +66,7 @@ vec3 readPosition(const Reader& reader, const Scene& scene) {
     return position;
 }
 
-/// The solid angle that the full intensity would fill with the flux of the spot, over pi.
+/// The area is the solid angle that the full intensity would fill with the flux of the spot, over pi.
 void readCones(Reader& spot, Light& light) {
     const auto inner = spot.find("inner");
     const Reader outer = spot.at("outer");
@@ -78,7 +78,9 @@ void readCones(Reader& spot, Light& light) {
     light.area = static_cast<float>(2 * (height - between + between / 3));
 }
 
-void addSphere(const Reader& lamp, const Reader& position, double radius, dvec3 intensity, ShapeLoader& loader) {
+/// A ball of radiance I / (pi r^2), with the beam of a spot if `like` is one.
+void addBall(const Reader& lamp, const Reader& position, double radius, dvec3 intensity, const Light& like,
+             Scene& scene, ShapeLoader& loader) {
     const dvec3 center = position.place(), radiance = intensity / (glm::pi<double>() * radius * radius);
     (void)requireFloat(lamp, radiance);
     const nlohmann::json sphere{{"type", "sphere"},
@@ -86,6 +88,12 @@ void addSphere(const Reader& lamp, const Reader& position, double radius, dvec3 
                                 {"radius", radius},
                                 {"emission", {radiance.x, radiance.y, radiance.z}}};
     loader.add(Reader{lamp.path(), sphere});
+    if (like.kind != LIGHT_SPOT) return;
+    Light& ball = scene.lights.back();
+    ball.u.y = like.v.x;
+    ball.u.z = like.v.y;
+    ball.v = like.u;
+    ball.area = static_cast<float>(glm::pi<double>() * double{ball.u.x} * double{ball.u.x} * double{like.area});
 }
 
 void addLamp(Reader lamp, Scene& scene, ShapeLoader& loader) {
@@ -103,9 +111,8 @@ void addLamp(Reader lamp, Scene& scene, ShapeLoader& loader) {
                 .share = 1};
     if (kind == 2) readCones(lamp, light);
     lamp.finish();
-    if (kind == 2 && radius > 0) size->fail("found a spot with a radius", "only points may have one so far");
     if (light.radiance == vec3{0}) return;
-    if (radius > 0) addSphere(lamp, position, radius, intensity, loader);
+    if (radius > 0) addBall(lamp, position, radius, intensity, light, scene, loader);
     else scene.lights.push_back(light);
 }
 

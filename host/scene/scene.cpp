@@ -19,8 +19,8 @@ Camera pinholeCamera(const View& view, uvec2 size) {
     const dvec3 up = glm::cross(right, forward);
     const double focus =
         view.lens.focus > 0 ? double{view.lens.focus} : glm::distance(dvec3{view.target}, dvec3{view.origin});
-    return {view.origin,        vec3{forward},      vec3{right * (tangent * aspect)}, vec3{up * tangent},
-            view.lens.aperture, static_cast<float>(focus)};
+    return {view.origin,        vec3{forward},      vec3{right * (tangent * aspect)},
+            vec3{up * tangent}, view.lens.aperture, static_cast<float>(focus)};
 }
 
 } // namespace vkpm

@@ -44,7 +44,8 @@ Raster smoothed(const Raster& image) {
     result.texels.reserve(std::size_t(result.width) * result.height);
     const auto at = [&](std::int64_t x, std::int64_t y) {
         const auto column = std::size_t((x + image.width) % image.width);
-        return dvec3{image.texels[std::size_t(std::clamp<std::int64_t>(y, 0, image.height - 1)) * image.width + column]};
+        return dvec3{
+            image.texels[std::size_t(std::clamp<std::int64_t>(y, 0, image.height - 1)) * image.width + column]};
     };
     for (uint y = 0; y < result.height; y++) {
         const double v = (y + 0.5) / factor - 0.5, row = std::floor(v);
