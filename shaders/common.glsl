@@ -11,6 +11,7 @@ layout(local_size_x = GROUP) in;
     layout(push_constant, scalar) uniform PushConstants { T args; };
 
 const float PI = 3.14159265;
+const float BELOW_ONE = 0.99999994;
 const float GREATEST = 3.4028235e38; // of floats: compilers may take it that there are no infinities
 
 // Index over all groups of a dispatch, which may have several rows.

@@ -3,6 +3,7 @@
 // other far light hides them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "aim_from_afar.glsl"
 #include "common.glsl"
 #include "compaction.glsl"
 #include "feature_checks.glsl"
@@ -22,6 +23,42 @@ uint mediaOfLight(DeviceScene scene, uint light) {
     return hasMedia && scene.media != uvec2(0u) ? uintPtr(scene.lightMedia).at[light] : 0u;
 }
 
+// A point on the light, and the side if there are two; then a direction, and the weight that makes up for a density
+// other than cos / pi, or other than uniform from a point.
+void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIONS], out Aim aim, out vec3 origin,
+                  out vec3 color) {
+    LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
+    if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
+    bool bare = isDelta(light), beam = isBeam(light);
+    if (bare) point = LightPoint(light.a, abs(light.a), vec3(0.0));
+
+    vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
+    vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
+    if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
+    else if (bare) aim = aimBare(scene, light, point, u);
+    else if (beam) aim = aimBeam(light, point, place, u);
+    else aim = aimAtLit(scene, point, u);
+    origin = offsetPoint(point.position, point.magnitude, point.normal);
+    if (aim.remote) {
+        vec3 entered = entrance(scene.near, aim);
+        if (hasFarLights > 1u && aim.weight > 0.0 && occluded(scene, entered, origin, NONE)) aim.weight = 0.0;
+        origin = entered;
+    }
+    // The area is flux over pi times radiance.
+    if (bare) aim.weight *= 4.0 / light.area;
+    else if (beam) aim.weight *= 4.0 * PI * light.u.x * light.u.x / light.area;
+    if (bare || beam) aim.weight *= partOfBeam(light, aim.direction);
+    color = light.radiance / luminance(light.radiance);
+}
+
+// The same of a light that is endlessly far: photons start where they enter the scene, unless a far light hides it.
+void startAfar(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIONS], out Aim aim, out vec3 origin,
+               out vec3 color) {
+    aim = aimFromAfar(scene, light, numbers, args.caustic != 0u, color);
+    origin = entrance(scene.near, aim);
+    if (hasFarLights > 0u && closest(scene, origin, -aim.direction, NONE).primitive != NONE) aim.weight = 0.0;
+}
+
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
@@ -32,31 +69,22 @@ void main() {
     float inverseDensity = 1.0;
     if (hasGuide && args.guide != uvec2(0u)) inverseDensity = guide(GuideNodePtr(args.guide), numbers);
 
-    // A light in proportion to its flux, a point on it, and the side if there are two.
+    // A light in proportion to its flux.
     uint chosen = chooseLight(scene, scene.lightCdf, numbers[PRIMARY_LIGHT]);
     Light light = LightPtr(scene.lights).at[chosen];
     requireLight(scene, light);
-    LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
-    if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
-
-    // A direction, and the weight that makes up for a density other than cos / pi.
-    vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
+    vec3 color;
+    vec3 origin;
     Aim aim;
-    if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
-    else aim = aimAtLit(scene, point, u);
-    vec3 origin = offsetPoint(point.position, point.magnitude, point.normal);
-    if (aim.remote) {
-        vec3 entered = entrance(scene.near, aim);
-        if (hasFarLights > 1u && aim.weight > 0.0 && occluded(scene, entered, origin, NONE)) aim.weight = 0.0;
-        origin = entered;
-    }
+    if (isEndless(light)) startAfar(scene, light, numbers, aim, origin, color);
+    else startOnLight(scene, light, numbers, aim, origin, color);
     float weight = aim.weight;
     if (hasGuide && args.starts != uvec2(0u))
         PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
     weight *= inverseDensity;
 
-    vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);
-    args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u, mediaOfLight(scene, chosen));
+    args.paths.at[slot] =
+        Path(origin, aim.direction, color * (weight * light.share), 0.0, NONE, 0u, mediaOfLight(scene, chosen));
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;
     putFlags(args.flags, slot, PHOTON_QUEUES, weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u);

@@ -1,8 +1,10 @@
-// Starts one path per pixel at the camera, at a place within the pixel that differs from pass to pass (box filter).
+// Starts one path per pixel at the camera, on its lens if it has one, at a place within the pixel that differs from
+// pass to pass (box filter).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "camera.glsl"
 #include "common.glsl"
+#include "lens.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"
@@ -19,7 +21,14 @@ void main() {
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
     uint media = hasMedia ? args.scene.at[0].cameraMedia : 0u;
-    args.paths.at[slot] = Path(camera.origin, cameraDirection(camera, film), vec3(1.0), 0.0, NONE, 0u, media);
+    vec3 origin = camera.origin, direction = cameraDirection(camera, film);
+    if (hasLens) {
+        Sampler s = pixelSampler(pixel, args.pass, args.seed, SAMPLES_EYE);
+        vec3 offset = lensPoint(camera, sample2(s, LENS_DIMENSION));
+        origin += offset;
+        direction = lensDirection(camera, offset, film);
+    }
+    args.paths.at[slot] = Path(origin, direction, vec3(1.0), 0.0, NONE, 0u, media);
     args.list.at[slot] = slot;
     if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
 

@@ -6,8 +6,6 @@
 #include "random.glsl"
 #include "shared_photons.h"
 
-const float BELOW_ONE = 0.99999994;
-
 // The numbers that start a photon, uniform over the unit cube.
 float[PRIMARY_DIMENSIONS] primarySample(Sampler s) {
     vec2 light = sample2(s, 0u);

@@ -2,6 +2,7 @@
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 #include "common.glsl"
+#include "light_beam.glsl"
 #include "shared_scene.h"
 
 struct LightPoint {
@@ -51,7 +52,8 @@ bool isTwoSided(Light light) { return hasTwoSidedLights && light.twoSided != 0u;
 
 // Radiance that a light sends in direction w from where its normal is n.
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
-    return isTwoSided(light) || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
+    if (!isTwoSided(light) && dot(n, w) <= 0.0) return vec3(0.0);
+    return hasSpots ? light.radiance * partOfBeam(light, w) : light.radiance;
 }
 
 #endif

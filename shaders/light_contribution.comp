@@ -21,6 +21,6 @@ void main() {
     if (from.flags == NONE) return;
     Sampler s = pixelSampler(i, 0u, args.seed, SAMPLES_EYE);
     ShadowRay ray = sampleDirectOf(scene, LightPtr(scene.lights).at[i % scene.lightCount], 1.0, from.origin, from.from,
-                                   from.normal, from.shading, from.bulge, from.throughput, 0u, sample2(s, 0u));
+                                   from.normal, from.shading, from.bulge, from.throughput, 0u, sample2(s, 0u), false);
     if (luminance(ray.radiance) > 0.0 && !hidden(scene, ray)) args.values.at[i] = luminance(ray.radiance);
 }

@@ -1,4 +1,4 @@
-// Points of lights, whatever their kind: where photons start, and as seen from a place.
+// Points of area lights, whatever their kind: where photons start, and as seen from a place.
 #ifndef LIGHT_SAMPLING_GLSL
 #define LIGHT_SAMPLING_GLSL
 #include "light.glsl"
@@ -9,7 +9,7 @@
 
 // Whether a light is of a kind, asked in the order of the list: the last one that a scene has needs no look.
 bool isNextKind(Light light, uint kind) {
-    const uint kinds = lightKinds & ALL_LIGHTS;
+    const uint kinds = lightKinds & AREA_KINDS;
     return (kinds & 1u << kind) != 0u && (kinds >> kind == 1u || light.kind == kind);
 }
 
@@ -17,7 +17,7 @@ bool isNextKind(Light light, uint kind) {
 #define X(id, NAME, name, words)                                                                                       \
     if (isNextKind(light, id)) return emit##name(light, u);
 LightPoint sampleEmissionPoint(Light light, vec2 u) {
-    LIGHTS(X)
+    AREA_LIGHTS(X)
     return LightPoint(light.a, abs(light.a), light.u);
 }
 #undef X
@@ -26,7 +26,7 @@ LightPoint sampleEmissionPoint(Light light, vec2 u) {
 #define X(id, NAME, name, words)                                                                                       \
     if (isNextKind(light, id)) return sample##name(light, origin, u);
 LightSample sampleLight(Light light, vec3 origin, vec2 u) {
-    LIGHTS(X)
+    AREA_LIGHTS(X)
     return LightSample(LightPoint(light.a, abs(light.a), light.u), 0.0);
 }
 #undef X
@@ -35,7 +35,7 @@ LightSample sampleLight(Light light, vec3 origin, vec2 u) {
 #define X(id, NAME, name, words)                                                                                       \
     if (isNextKind(light, id)) return inversePdf##name(light, origin, point);
 float inversePdfOfLight(Light light, vec3 origin, LightPoint point) {
-    LIGHTS(X)
+    AREA_LIGHTS(X)
     return 0.0;
 }
 #undef X

@@ -10,6 +10,7 @@
 #include "bsdf_rough_glass.glsl"
 #include "bsdf_thin_glass.glsl"
 #include "common.glsl"
+#include "light_kinds.glsl"
 #include "lobes.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
@@ -180,9 +181,12 @@ float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
 // Specular vertices of a path since its last diffuse one, up to 63, and its flags after one more.
 uint specularRun(uint flags) { return (flags & PATH_SPECULARS) / PATH_SPECULAR; }
 
+// Whether paths know the density of their last event.
+const bool hasPdf = hasGlossy || hasEndless;
+
 // Diffuse vertices of a path from the eye.
 uint diffuseCount(uint flags) {
-    return hasGlossy ? (flags & ~PATH_PDF_MASK) >> PATH_DIFFUSE_SHIFT : flags >> PATH_DIFFUSE_SHIFT;
+    return hasPdf ? (flags & ~PATH_PDF_MASK) >> PATH_DIFFUSE_SHIFT : flags >> PATH_DIFFUSE_SHIFT;
 }
 
 // A density in the ten bits that flags have for it: an exponent and two digits. Both samplers of a light are weighted
@@ -192,10 +196,10 @@ uint packPdf(float pdf) { return pdf > 0.0 ? max(floatBitsToUint(pdf) >> 21, 1u)
 float unpackPdf(uint bits) { return uintBitsToFloat(bits << 21); }
 
 uint withPdf(uint flags, float pdf) {
-    return hasGlossy ? (flags & ~PATH_PDF_MASK) | packPdf(pdf) << PATH_PDF_SHIFT : flags;
+    return hasPdf ? (flags & ~PATH_PDF_MASK) | packPdf(pdf) << PATH_PDF_SHIFT : flags;
 }
 
-float pdfOf(uint flags) { return hasGlossy ? unpackPdf(flags >> PATH_PDF_SHIFT) : 0.0; }
+float pdfOf(uint flags) { return hasPdf ? unpackPdf(flags >> PATH_PDF_SHIFT) : 0.0; }
 
 uint afterSpecular(uint flags) { return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR; }
 

@@ -60,15 +60,20 @@ struct Vertex {
     Split split;         // its flags may be NONE
 };
 
-// Light that the path runs into: seen directly or through specular surfaces. After a diffuse vertex the shadow rays
-// have the direct part, and the photon integrator has the rest in its maps.
-void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surface) {
-    Light light = LightPtr(scene.lights).at[surface.light];
+// Whether light that the path runs into counts: seen directly or through specular surfaces. After a diffuse vertex the
+// shadow rays have the direct part, and the photon integrator has the rest in its maps.
+bool findsLight(inout Vertex vertex, Path path) {
     uint diffuse = diffuseCount(path.flags);
-    if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return;
+    if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return false;
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    if (!hasLayer(layer)) return;
+    if (!hasLayer(layer)) return false;
     vertex.emissionColumn = layerColumn(layer);
+    return true;
+}
+
+void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surface) {
+    if (!findsLight(vertex, path)) return;
+    Light light = LightPtr(scene.lights).at[surface.light];
     vertex.emission = path.throughput * emittedRadiance(light, surface.normal, -path.direction);
     if (hasGlossy)
         vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
@@ -81,6 +86,22 @@ void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, Path path) {
             transmittance(scene, path.media, distance(vertex.shadowRay.origin, vertex.shadowRay.target));
 }
 
+// The same of the lights that are endlessly far.
+void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
+    if (activeIntegrator() == INTEGRATOR_PHOTON_MAP || (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u)) return;
+    bool direct = diffuseCount(path.flags) == 0u && (path.flags & PATH_EYE_SPECULAR) == 0u;
+    if (hasSky && direct && SkyPtr(scene.sky).at[0].visible == 0u) return;
+    // A gather ray carries its share of direct light: splits have the rest, by light samples.
+    uint layer = layerOf(path, LAYER_DIRECT);
+    if (diffuseCount(path.flags) == 1u && (path.flags & PATH_SPECULARS) == 0u && pdfOf(path.flags) > 0.0) {
+        if (!hasLayer(layer)) return;
+        vertex.emissionColumn = layerColumn(layer);
+        path.throughput *= args.splits.at[slot].throughput;
+        vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
+    } else if (findsLight(vertex, path))
+        vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
+}
+
 // Asks for one light sample.
 void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
                       float bulge, vec3 weight, BounceSampler s) {
@@ -88,7 +109,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (!hasLayer(layer)) return;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
-                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
+                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), false);
     attenuateShadowRay(vertex, scene, path);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
@@ -207,8 +228,12 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     vertex.queues = 0u;
     vertex.emissionColumn = NONE;
     vertex.split.flags = NONE;
-    if (hit.primitive == NONE) return vertex;
+    if (!hasEndless && hit.primitive == NONE) return vertex;
     DeviceScene scene = args.scene.at[0];
+    if (hasEndless && hit.primitive == NONE) {
+        addBeyond(vertex, scene, path, slot);
+        return vertex;
+    }
     Surface surface = surfaceAt(scene, path, hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);

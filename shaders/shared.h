@@ -91,7 +91,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(31, bool, hasContact, true)                                                                                      \
     X(32, bool, hasMedia, true)                                                                                        \
     X(33, bool, hasDispersion, true)                                                                                   \
-    X(34, bool, hasTouching, true)
+    X(34, bool, hasTouching, true)                                                                                     \
+    X(35, bool, hasLens, true)
 
 #ifdef __cplusplus
 struct Features {

@@ -12,9 +12,11 @@ struct ShadowRay {
     uint from; // primitive that the ray leaves
     vec3 target;
     vec3 radiance;
-    uint column;  // of the samples, to which the radiance is added
-    uint through; // 1: through a smooth mesh, see terminator.glsl
+    uint column; // of the samples, to which the radiance is added
+    uint flags;  // SHADOW_...
 };
+const uint SHADOW_THROUGH = 1u; // through a smooth mesh, see terminator.glsl
+const uint SHADOW_ENDLESS = 2u; // the target is a direction
 BUFFER(ShadowRay)
 
 /// A point whose irradiance is estimated from a photon map; it adds weight times irradiance to the samples.

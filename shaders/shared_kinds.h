@@ -33,9 +33,24 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 
 // id, constant, name of functions, in words
 #define LIGHTS(X)                                                                                                      \
+    AREA_LIGHTS(X)                                                                                                     \
+    DELTA_LIGHTS(X)                                                                                                    \
+    ENDLESS_LIGHTS(X)
+
+#define AREA_LIGHTS(X)                                                                                                 \
     X(0, RECTANGLE, Rectangle, "rectangles that emit") /* a + x u + y v, x and y in [0, 1]; normal u x v */            \
     X(1, TRIANGLE, Triangle, "meshes that emit")       /* a, a + u, a + v; normal u x v */                             \
     X(2, SPHERE, Sphere, "spheres that emit")          /* centre a, radius u.x; normal outward */
+
+// Without a size, so that no ray finds them; their radiance is an intensity.
+#define DELTA_LIGHTS(X)                                                                                                \
+    X(3, POINT, Point, "lights that are points") /* at a */                                                            \
+    X(4, SPOT, Spot, "spot lights")              /* at a, towards u; v: see beam() in light_delta.glsl */
+
+// So far away that they are in the same direction from everywhere; the first of a scene's lights.
+#define ENDLESS_LIGHTS(X)                                                                                              \
+    X(5, SUN, Sun, "suns")  /* towards a; u: sine of half its angle, 1 - cosine */                                     \
+    X(6, SKY, Sky, "a sky") /* DeviceScene.sky */
 
 #define X(id, NAME, name, lobes, words) const uint MATERIAL_##NAME = id;
 MATERIALS(X)
@@ -61,7 +76,9 @@ const uint DIELECTRIC_KINDS = GLASS_KINDS | SHEET_KINDS; // whose reflectance is
 const uint LAYERED_KINDS = DIFFUSE_KINDS & SPECULAR_KINDS;
 
 #define X(id, NAME, name, words) | 1u << id
-const uint ALL_LIGHTS = 0u LIGHTS(X);
+const uint AREA_KINDS = 0u AREA_LIGHTS(X);
+const uint DELTA_LIGHT_KINDS = 0u DELTA_LIGHTS(X);
+const uint ENDLESS_KINDS = 0u ENDLESS_LIGHTS(X);
 #undef X
 
 SHARED_END

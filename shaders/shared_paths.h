@@ -37,7 +37,7 @@ const uint PATH_SPECULAR = 2u;                   // one specular or glossy event
 const uint PATH_SPECULARS = 63u * PATH_SPECULAR; // all of these that are counted
 const uint PATH_THROUGH = 1u << 7;               // goes through a smooth mesh, see terminator.glsl
 const uint PATH_DIFFUSE_SHIFT = 8u;
-const uint PATH_PDF_SHIFT = 22u; // eye, of scenes with glossy lobes: density of the last event, see packPdf
+const uint PATH_PDF_SHIFT = 22u; // eye, of scenes with glossy lobes or a sky: density of the last event, see packPdf
 const uint PATH_PDF_MASK = 0xffc00000u;
 BUFFER(Path)
 

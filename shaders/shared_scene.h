@@ -3,6 +3,7 @@
 #define SHARED_SCENE_H
 #include "shared.h"
 #include "shared_kinds.h"
+#include "shared_sky.h"
 
 SHARED_BEGIN
 
@@ -93,7 +94,7 @@ const uint REST_STEPS = 32u;
 const uint REST_MEAN = REST_STEPS + 1u;
 const uint REST_ROW = REST_STEPS + 2u;
 
-/// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
+/// A light. Area lights emit `radiance` on the side of their normal, or on both.
 struct Light {
     vec3 a;
     vec3 u;
@@ -101,7 +102,7 @@ struct Light {
     vec3 radiance;
     uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
-    float area;
+    float area;  // of lights without one, flux over pi times radiance
     float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
 };
 BUFFER(Light)
@@ -114,13 +115,15 @@ struct Target {
 };
 BUFFER(Target)
 
-/// A pinhole camera; the ray of film position (x, y) in [0, 1]^2, y down, has the direction
+/// A camera; through the middle of its lens the ray of film position (x, y) in [0, 1]^2, y down, has the direction
 /// forward + (2 x - 1) right + (1 - 2 y) up, where |right| and |up| are the tangents of the half angles.
 struct Camera {
     vec3 origin;
     vec3 forward;
     vec3 right;
     vec3 up;
+    float aperture; // radius of its lens: 0 of a pinhole
+    float focus;    // how far the plane is that is sharp, along the axis
 };
 
 /// Addresses of the arrays of a scene; what a scene lacks has address 0.
@@ -138,13 +141,17 @@ struct DeviceScene {
     ADDRESS(float) rests;         // rows of REST_ROW numbers
     ADDRESS(Medium) media;
     ADDRESS(uint) lightMedia; // by light, of paths that start there
-    ADDRESS(uint) touching;  // by triangle, where the list of those that may lie on it begins, here too; then the lists
+    ADDRESS(uint) touching; // by triangle, where the list of those that may lie on it begins, here too; then the lists
+    ADDRESS(Sky) sky;
     ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
     ADDRESS(uint) overflows; // how often a path was in more than four media
     Target lit;              // about all that light falls upon
     Target near;             // about all but far lights
+    Target middle;           // of what is lit, leaving out few shapes that are much larger
     uint triangleCount;
     uint lightCount;
+    uint endlessCount; // of the first lights
+    uint discCount;    // across directions from endlessly far: the middle's, each four times as wide, and that of `lit`
     uint targetCount;
     float unit;       // of lengths, in world units: a power of two
     uint cameraMedia; // of paths that start at the camera

@@ -21,6 +21,8 @@ struct SplatArgs {
     PTR(uint) rays;    // becomes the number of photons that are before the film, on top of what it was
     uvec2 size;
     uint count;
+    uint pass;
+    uint seed;
     float photonFlux; // W per photon emitted
 };
 

@@ -7,9 +7,11 @@
 #include "common.glsl"
 #include "directions.glsl"
 #include "feature_checks.glsl"
+#include "lens.glsl"
 #include "material.glsl"
 #include "media.glsl"
 #include "offset.glsl"
+#include "random.glsl"
 #include "shared_paths.h"
 #include "shared_photons.h"
 #include "shared_scene.h"
@@ -41,12 +43,12 @@ bool isAt(Photon photon, Surface surface, vec3 direction) {
 // Whether the camera sees the photon; `radiance` is what the photon adds to its pixel's mean. Between film and surface
 // go the cosine of the geometric normal and the square of the distance; what shading normals change is in the photon's
 // color (Veach 1997, eq. 5.19).
-bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
+bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 radiance) {
     radiance = vec3(0.0);
     vec3 direction = normalize(toPhoton);
-    Hit hit = closest(scene, scene.camera.origin, direction, NONE);
+    Hit hit = closest(scene, eye, direction, NONE);
     if (hit.primitive == NONE) return false;
-    Surface surface = surfaceAt(scene, Path(scene.camera.origin, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
+    Surface surface = surfaceAt(scene, Path(eye, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
     Material material = MaterialPtr(scene.materials).at[surface.material];
     requireSurface(scene, hit.primitive, material);
     if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
@@ -66,11 +68,19 @@ void main() {
     if (i < args.count) {
         DeviceScene scene = args.scene.at[0];
         Photon photon = args.photons.at[i];
-        vec3 toPhoton = photon.position - scene.camera.origin;
-        pixel = pixelOf(scene.camera, toPhoton);
+        vec3 eye = scene.camera.origin, offset = vec3(0.0);
+        if (hasLens) {
+            Sampler s = photonSampler(i, args.pass, args.seed, LENS_DIMENSION);
+            offset = lensPoint(scene.camera, sample2(s, 0u));
+            eye += offset;
+        }
+        vec3 toPhoton = photon.position - eye;
+        bool before = dot(toPhoton, scene.camera.forward) > 0.0;
+        if (!hasLens) pixel = pixelOf(scene.camera, toPhoton);
+        else if (before) pixel = pixelOf(scene.camera, throughLens(scene.camera, offset, toPhoton));
         onFilm = pixel != noPixel();
         vec3 radiance = vec3(0.0);
-        if (onFilm && !sees(scene, photon, toPhoton, radiance)) pixel = noPixel();
+        if (onFilm && !sees(scene, eye, photon, toPhoton, radiance)) pixel = noPixel();
         args.splats.at[i].radiance = radiance;
         args.pixels.at[i] = pixel;
         args.order.at[i] = i;

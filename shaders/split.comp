@@ -18,22 +18,27 @@
 
 ARGS(SplitArgs)
 
+bool gathers(Split from) {
+    return hasGlobalMap && hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT);
+}
+
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
-                                 args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u));
+    ShadowRay ray =
+        sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
+                     args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u), gathers(from));
     if (hasMedia) ray.radiance *= transmittance(args.scene.at[0], from.media, distance(ray.origin, ray.target));
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }
 
 bool sendGatherRay(uint slot, Split from, Sampler s) {
-    if (!hasGlobalMap || !hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT))
-        return false;
+    if (!gathers(from)) return false;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
+    if (hasEndless) flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
     float arrival = diffuseArrivalAt(args.scene.at[0], from.from, dot(direction, from.shading));
     args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags, from.media);
     return true;

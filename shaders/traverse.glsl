@@ -3,6 +3,7 @@
 #define TRAVERSE_GLSL
 #include "common.glsl"
 #include "intersect.glsl"
+#include "light_kinds.glsl"
 #include "offset.glsl"
 #include "shared_camera.h"
 #include "shared_paths.h"
@@ -164,10 +165,15 @@ vec3 beneath(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
 
 // Whether a light sample is hidden.
 bool hidden(DeviceScene scene, ShadowRay ray) {
-    Passage passage = Passage(hasSmoothDiffuse && ray.through != 0u, 0u);
-    if (passage.allowed) ray.origin = beneath(scene, ray.origin, ray.target - ray.origin, ray.from);
-    bool hit =
-        traverse(scene, makeRay(ray.origin, ray.target - ray.origin), ray.from, 1.0, true, passage).primitive != NONE;
+    Passage passage = Passage(hasSmoothDiffuse && (ray.flags & SHADOW_THROUGH) != 0u, 0u);
+    bool endless = hasEndless && (ray.flags & SHADOW_ENDLESS) != 0u;
+    vec3 way = endless ? ray.target : ray.target - ray.origin;
+    if (passage.allowed) {
+        ray.origin = beneath(scene, ray.origin, way, ray.from);
+        if (!endless) way = ray.target - ray.origin;
+    }
+    float end = endless ? GREATEST : 1.0;
+    bool hit = traverse(scene, makeRay(ray.origin, way), ray.from, end, true, passage).primitive != NONE;
     return hit || (passage.allowed && passage.triangles != 1u);
 }
 

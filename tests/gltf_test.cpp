@@ -50,7 +50,7 @@ TEST(Gltf, AModelIsAScene) {
     EXPECT_EQ(scene.settings.size, uvec2(512, 256));
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("/extensionsUsed: unknown extensions are left out: \"EXT_none\"")));
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("/meshes/1/primitives/2: points and lines are left out")));
-    EXPECT_THAT(scene.warnings, Contains(HasSubstr("a point lamp is left out")));
+    EXPECT_EQ(scene.lights.at(0).kind, LIGHT_SUN);
     // The camera is at (0, 1, 6) of a node that is scaled by -2 along z: it looks towards +z.
     EXPECT_NEAR(glm::distance(scene.coordinates.world(scene.view.origin), dvec3(0, 2, -12)), 0, 1e-5);
     EXPECT_NEAR(glm::normalize(scene.view.target - scene.view.origin).z, 1, 1e-6);
@@ -155,13 +155,15 @@ TEST(Gltf, LampsHaveTheirIrradiance) {
         json scene = importing(import);
         scene["materials"]["black"] = {{"type", "diffuse"}, {"albedo", 0}};
         const Scene loaded = loadJson(scene);
-        const Light& light = loaded.lights.at(0); // a sphere of radius b.x at a
-        const double radius = light.u.x,
-                     far = distance > 0 ? distance : glm::length(dvec3{light.a} - dvec3(0.5, 0.5, 0));
-        return std::numbers::pi * light.radiance.x * (radius / far) * (radius / far);
+        const Light& light = loaded.lights.at(0);
+        if (light.kind == LIGHT_POINT) return light.radiance.x / (distance * distance);
+        const double size =
+            light.kind == LIGHT_SUN ? double{light.u.x} : light.u.x / distance; // sine of half its angle
+        return std::numbers::pi * light.radiance.x * size * size;
     };
     lamp = {{"type", "point"}, {"intensity", 543.5}};
     EXPECT_NEAR(irradiance({{"file", "model.glb"}, {"lampRadius", 0.05}}, 2), 0.1989, 1e-4);
+    EXPECT_NEAR(irradiance("model.glb", 2), 0.1989, 1e-4); // a point
     lamp["intensity"] = 10 / (4 * std::numbers::pi);
     EXPECT_NEAR(irradiance({{"file", "model.glb"}, {"lampRadius", 0.05}, {"lights", "unitless"}}, 2), 0.1989, 1e-4);
     lamp["intensity"] = 10;

@@ -1,6 +1,7 @@
 /// How the rays of the benchmark are made.
 #include "bench/random.h"
 #include "bench/rays.h"
+#include "scene/lights.h"
 #include "shared_scene.h"
 
 namespace vkpm {
@@ -40,6 +41,7 @@ Point pointAt(const Scene& scene, const Path& path, const Hit& hit) {
 
 /// A point of the area of a light, uniformly distributed.
 vec3 pointOn(const Light& light, Random& random) {
+    if (isEndless(light) || isDelta(light)) return light.a;
     if (light.kind == LIGHT_SPHERE) return light.a + light.u.x * random.direction();
     vec2 x{random.uniform(), random.uniform()};
     if (light.kind == LIGHT_TRIANGLE && x.x + x.y > 1) x = 1.0f - x;

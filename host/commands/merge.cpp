@@ -109,6 +109,8 @@ int execute(const MergeOptions& options) {
     settings.size = parts[0].header.size;
     settings.layers = parts[0].layers;
     settings.exposure = std::strtof(parts[0].attribute("exposure").c_str(), nullptr);
+    settings.coverage =
+        std::ranges::find(parts[0].header.channels, "A", &Channel::name) != parts[0].header.channels.end();
     Features features;
     askFor(settings.layers, features);
     Film film(gpu, settings.size, features);

@@ -7,6 +7,7 @@
 #include "output/atomic_file.h"
 #include "output/messages.h"
 #include "output/progress.h"
+#include "render/explain.h"
 
 namespace vkpm {
 
@@ -30,6 +31,7 @@ int execute(const RenderOptions& options) {
     for (const std::string& warning : scene.warnings) warn(warning);
     requireFilesApart(options, scene.files);
     const Settings settings = options.settingsOf(scene.settings);
+    if (const std::string blind = blindness(scene, settings); !blind.empty()) warn(blind);
 
     requireWritable(options.output);
     requireWritable(pngBeside(options.output));
@@ -47,6 +49,10 @@ int execute(const RenderOptions& options) {
         job.begin();
         renderPasses(job, options);
         if (!job.finish()) return 130;
+        if (settings.autoExposure && !options.quiet)
+            say("the PNG shows an exposure of {0} stops, by the picture's brightness; "
+                "\"film\": {{\"exposure\": {0}}} keeps it",
+                job.exposure());
         return interrupted() ? 130 : 0;
     });
 }

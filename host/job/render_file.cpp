@@ -54,12 +54,22 @@ void restore(Film& film, const RenderFile& file) {
     });
 }
 
+float exposureOf(const Film& film, const Settings& settings) {
+    if (!settings.autoExposure) return settings.exposure;
+    const uint rows = 64;
+    AutoExposure exposure;
+    for (uint row = 0; row < settings.size.y; row += rows)
+        exposure.add(film.rows(row, std::min(rows, settings.size.y - row)).pixels);
+    return exposure.stops();
+}
+
 void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings,
                 std::map<std::string, std::string> attributes, const Keeping& keeping) {
     const PassRange passes = film.passes();
     attributes["passes"] = std::to_string(film.passCount());
     attributes["passRange"] = fmt::format("{}:{}", passes.begin, passes.end);
-    attributes["exposure"] = fmt::format("{}", settings.exposure);
+    const float exposure = exposureOf(film, settings);
+    attributes["exposure"] = fmt::format("{}", exposure);
     for (uint i = 0; i < layerNames.size(); i++)
         if (settings.layers >> i & 1)
             attributes["layers"] += fmt::format("{}{}", attributes["layers"].empty() ? "" : " ", layerNames[i]);
@@ -69,8 +79,9 @@ void saveRender(const std::filesystem::path& output, const Film& film, const Set
     const std::uint64_t clamped = writeExr(output, settings.size, attributes, [&](uint row, uint rows) {
         const FilmRows block = film.rows(row, rows);
         const std::vector<Pixel>& pixels = block.pixels;
-        std::ranges::copy(develop(pixels, settings.exposure), picture.begin() + std::ptrdiff_t(row) * settings.size.x);
-        Image image = filmImage(pixels, {settings.size.x, rows}, settings.layers);
+        std::ranges::copy(develop(pixels, exposure, settings.coverage),
+                          picture.begin() + std::ptrdiff_t(row) * settings.size.x);
+        Image image = filmImage(pixels, {settings.size.x, rows}, settings.layers, settings.coverage);
         if (keeping.half)
             for (Channel& channel : image.channels)
                 channel.storage = channel.name == "depth.Z" ? Storage::float32 : Storage::half;
@@ -85,7 +96,7 @@ void saveRender(const std::filesystem::path& output, const Film& film, const Set
         warn(fmt::format("{}: {} values are larger than 65504, the largest 16-bit float, and were saved as that; "
                          "without --half they are saved as they are",
                          output.string(), clamped));
-    writePng(pngBeside(output), settings.size, picture);
+    writePng(pngBeside(output), settings.size, picture, settings.coverage);
 }
 
 } // namespace vkpm

@@ -31,6 +31,9 @@ struct Keeping {
     bool half = false; // layers as 16-bit floats
 };
 
+/// The exposure of a film's picture in stops, as the settings say it or as its brightness asks for.
+float exposureOf(const Film& film, const Settings& settings);
+
 /// Writes the picture of a film with its sums and further attributes, and a PNG beside it, some rows at a time; size,
 /// layers and exposure are the settings'.
 void saveRender(const std::filesystem::path& output, const Film& film, const Settings& settings,

@@ -149,9 +149,11 @@ void RenderJob::addToReport() {
     reporting += secondsSince(before);
 }
 
+float RenderJob::exposure() const { return exposureOf(renderer.film, settings); }
+
 void RenderJob::finishReport() const {
     const std::vector<Pixel> pixels = renderer.film.download();
-    report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, settings.exposure),
+    report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, exposureOf(settings, pixels)),
                    {{"scene", options.scene.string()},
                     {"settings", identity.at("settings")},
                     {"version", identity.at("version")},

@@ -45,6 +45,8 @@ public:
     /// Saves what there is.
     void save();
 
+    /// Of the PNG, in stops.
+    float exposure() const;
     uint passCount() const { return renderer.film.passCount(); }
     uint restoredPasses() const { return restored; }
     const PassRange& passesWanted() const { return passes; }

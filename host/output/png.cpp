@@ -33,23 +33,24 @@ int paeth(int left, int up, int corner) {
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/// Rows of 3 bytes a pixel, each with a byte before it that says by which filter it was predicted: none, left, up, or
-/// Paeth's, whichever leaves the least sum of differences.
-Bytes filtered(uvec2 size, std::span<const uint> rgba8) {
-    const std::size_t width = 3 * std::size_t(size.x);
-    Bytes result, before(width + 3, 0), row(width + 3, 0); // three zeros to the left
+/// Rows of `channels` bytes a pixel, 3 or 4, each with a byte before it that says by which filter it was predicted:
+/// none, left, up, or Paeth's, whichever leaves the least sum of differences.
+Bytes filtered(uvec2 size, std::span<const uint> rgba8, std::size_t channels) {
+    const std::size_t width = channels * std::size_t(size.x);
+    Bytes result, before(width + channels, 0), row(width + channels, 0); // zeros to the left
     result.reserve((width + 1) * size.y);
     std::array<Bytes, 4> tried;
     for (Bytes& bytes : tried) bytes.resize(width);
     for (std::size_t y = 0; y < size.y; y++) {
         for (std::size_t x = 0; x < size.x; x++)
-            for (std::size_t c = 0; c < 3; c++)
-                row[3 + 3 * x + c] = static_cast<unsigned char>(rgba8[y * size.x + x] >> 8 * c & 255u);
+            for (std::size_t c = 0; c < channels; c++)
+                row[channels + channels * x + c] = static_cast<unsigned char>(rgba8[y * size.x + x] >> 8 * c & 255u);
         std::array<std::uint64_t, 4> sums{};
         for (std::size_t i = 0; i < width; i++) {
-            const std::array<int, 4> predicted{0, row[i], before[i + 3], paeth(row[i], before[i + 3], before[i])};
+            const std::array<int, 4> predicted{0, row[i], before[i + channels],
+                                               paeth(row[i], before[i + channels], before[i])};
             for (std::size_t f = 0; f < 4; f++) {
-                tried[f][i] = static_cast<unsigned char>(row[i + 3] - predicted[f]);
+                tried[f][i] = static_cast<unsigned char>(row[i + channels] - predicted[f]);
                 sums[f] += static_cast<std::uint64_t>(std::abs(static_cast<signed char>(tried[f][i])));
             }
         }
@@ -72,22 +73,23 @@ Bytes deflated(const Bytes& raw) {
 
 } // namespace
 
-std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8) {
+std::vector<char> encodePng(uvec2 size, std::span<const uint> rgba8, bool alpha) {
     assert(rgba8.size() == size_t(size.x) * size.y);
     Bytes header;
     for (const uint side : {size.x, size.y})
         for (const uint shift : {24u, 16u, 8u, 0u}) header.push_back(static_cast<unsigned char>(side >> shift & 255u));
-    header.insert(header.end(), {8, 2, 0, 0, 0}); // bits, RGB, deflate, filters by row, not interlaced
+    header.insert(header.end(), {8, static_cast<unsigned char>(alpha ? 6 : 2), 0, 0,
+                                 0}); // bits, RGB or RGBA, deflate, filters by row, not interlaced
     constexpr std::string_view SIGNATURE = "\x89PNG\r\n\x1a\n";
     std::vector<char> png(SIGNATURE.begin(), SIGNATURE.end());
     appendChunk(png, "IHDR", header);
-    appendChunk(png, "IDAT", deflated(filtered(size, rgba8)));
+    appendChunk(png, "IDAT", deflated(filtered(size, rgba8, alpha ? 4 : 3)));
     appendChunk(png, "IEND", {});
     return png;
 }
 
-void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8) {
-    replaceFile(path, encodePng(size, rgba8));
+void writePng(const std::filesystem::path& path, uvec2 size, std::span<const uint> rgba8, bool alpha) {
+    replaceFile(path, encodePng(size, rgba8, alpha));
 }
 
 } // namespace vkpm

@@ -1,8 +1,10 @@
 /// Features in words.
 #include "render/explain.h"
 #include "render/features.h"
+#include "scene/lights.h"
 #include "shared_kinds.h"
 #include "shared_layers.h"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -77,6 +79,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     LIGHTS(X)
 #undef X
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
+    has("hasLens", f.hasLens, "lens");
     because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light",
             "photons of a light far away are aimed at the scene");
     because("hasGuide",
@@ -104,6 +107,16 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
             "photon maps blur");
     because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;
+}
+
+std::string blindness(const Scene& scene, const Settings& settings) {
+    const bool delta = std::ranges::any_of(scene.lights, isDelta);
+    const bool specular = std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
+        return (SPECULAR_KINDS >> scene.materials[p.material].kind & 1) != 0;
+    });
+    if (settings.integrator != INTEGRATOR_PATH || !delta || !specular) return "";
+    return "the path tracer cannot find caustics of lights without a size: points and spots of radius 0; the photon "
+           "integrator does";
 }
 
 } // namespace vkpm

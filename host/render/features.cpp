@@ -78,7 +78,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     });
     features.materialKinds = features.lightKinds = 0;
     for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
-    for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
+    for (const Light& light : scene.lights) {
+        features.lightKinds |= 1u << light.kind;
+        if (light.kind == LIGHT_SPHERE && light.v != vec3{0}) features.lightKinds |= 1u << LIGHT_SPOT; // has its beam
+    }
     const bool glass = hasMaterials(features, DIELECTRIC_KINDS);
     features.hasContact = hasMaterials(features, GLASS_KINDS) && glassMayTouchOpaque(scene);
     features.hasMedia = !scene.media.empty();
@@ -91,6 +94,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasManyLights = scene.lights.size() > 1;
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
+    features.hasLens = scene.view.lens.aperture > 0;
     features.hasGuide = 0; // the renderer finds out
     uint farLights = 0;
     for (const Light& light : scene.lights)

@@ -58,9 +58,11 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[PRIMARY_LIGHT] = scene.lights.size() > 1;
     axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[PRIMARY_TARGET] = scene.targets.size() > 1;
+    middle = scene.discCount > 1;
     lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
-    global = axes[PRIMARY_LIGHT] ||
-             std::ranges::any_of(scene.lights, [&](const Light& light) { return isFar(scene, light); });
+    global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) {
+                 return isEndless(light) || isFar(scene, light);
+             });
 }
 
 Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed,
@@ -68,7 +70,7 @@ Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features,
     const VisibleCells::Map& map = kind == MapKind::caustic ? marks.caustic : marks.global;
     const Kernel<PhotonContributionArgs> useful(gpu, "photon_contribution");
     std::array<bool, PRIMARY_DIMENSIONS> axes = needs.axes;
-    axes[PRIMARY_TARGET] &= kind == MapKind::caustic;
+    axes[PRIMARY_TARGET] = kind == MapKind::caustic ? needs.axes[PRIMARY_TARGET] : needs.middle;
     Guide guide;
     std::vector<PrimarySample> all;
     for (uint round = 0; round < maxRounds && (round < 2 || guide.places.size() < enoughPlaces); round++) {

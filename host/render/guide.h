@@ -24,6 +24,7 @@ struct GuideNeeds {
 
     std::array<bool, PRIMARY_DIMENSIONS> axes; // numbers that matter
     bool global; // photons of the global map, which go everywhere if there is one lamp and it is near
+    bool middle; // whether the global map's are aimed at the middle, too
     bool lights; // light samples, if there are lights to choose from
 };
 

@@ -8,10 +8,11 @@ namespace vkpm {
 LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Features& features,
                            const Settings& settings, float flux, uint batch)
     : tracing(device, uploaded, features, MapKind::caustic, settings.causticPhotons, settings.seed, batch), gpu(device),
-      scene(uploaded), size(settings.size), photonFlux(flux / float(settings.causticPhotons)), sort(gpu),
-      rays(gpu, "camera connections", 1), splat(gpu, "splat", features), sumSplats(gpu, "sum_splats", features) {}
+      scene(uploaded), size(settings.size), seed(settings.seed), photonFlux(flux / float(settings.causticPhotons)),
+      sort(gpu), rays(gpu, "camera connections", 1), splat(gpu, "splat", features),
+      sumSplats(gpu, "sum_splats", features) {}
 
-void LightTracing::recordSplats(Recording& recording) {
+void LightTracing::recordSplats(Recording& recording, uint pass) {
     splatCount = static_cast<uint>(tracing.arrived());
     sort.reserve(splatCount);
     if (splats.size() < splatCount) {
@@ -22,7 +23,8 @@ void LightTracing::recordSplats(Recording& recording) {
     // Photons that no pixel sees come behind the last pixel.
     recording.clear(rays);
     recording.run(splat, splatCount,
-                  {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, photonFlux});
+                  {scene.address, tracing.photons, splats, sort.keys, sort.values, rays, size, splatCount, pass, seed,
+                   photonFlux});
     sort.sort(recording, splatCount, static_cast<uint>(std::bit_width(size.x * size.y)));
     recording.read(rays, 0, rayCount);
 }

@@ -15,7 +15,7 @@ public:
                  uint batch);
 
     /// Records what the photons of a pass, which are there, add to pixels, sorted by pixel.
-    void recordSplats(Recording& recording);
+    void recordSplats(Recording& recording, uint pass);
     /// Records what fills the caustic columns of the samples, which are `stride` long, of pixels first .. first + count
     /// - 1.
     void recordSums(Recording& recording, const Buffer<float>& samples, uint stride, uint first, uint count);
@@ -29,6 +29,7 @@ private:
     Gpu& gpu;
     const UploadedScene& scene;
     uvec2 size;
+    uint seed;
     float photonFlux; // W
     Sort sort;        // of photons by the pixel that sees them
     Buffer<Splat> splats;

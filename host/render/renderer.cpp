@@ -93,7 +93,7 @@ void Renderer::buildMaps(Recording& recording, uint pass) {
 
     for (std::optional<PhotonMapStage>* map : {&global, &caustic})
         if (*map) (*map)->recordCells(recording, shown);
-    if (light) light->recordSplats(recording);
+    if (light) light->recordSplats(recording, pass);
     recording.submit();
     for (std::optional<PhotonMapStage>* map : {&global, &caustic})
         if (*map) (*map)->finishCells();

@@ -1,6 +1,8 @@
 /// Upload of a scene.
 #include "render/uploaded_scene.h"
+#include "scene/lights.h"
 #include "shared_scene.h"
+#include <algorithm>
 #include <stdexcept>
 
 namespace vkpm {
@@ -30,8 +32,15 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       mediaBuffer(uploaded(gpu, "scene media", scene.media)),
       lightMedia(uploaded(gpu, "scene light media", scene.lightMedia)),
       touching(uploaded(gpu, "scene touching", scene.touching)),
+      skyTexels(uploaded(gpu, "sky texels", scene.skyTexels)), skyRows(uploaded(gpu, "sky rows", scene.skyRows)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})),
       overflows(uploaded(gpu, "scene media overflows", std::vector<uint>{0})) {
+    if (!scene.skyTexels.empty()) {
+        Sky withTables = scene.sky;
+        withTables.texels = skyTexels;
+        withTables.rows = skyRows;
+        sky = uploaded(gpu, "sky", std::vector{withTables});
+    }
     device = {.nodes = nodes,
               .leaves = leaves,
               .primitives = primitives,
@@ -46,12 +55,16 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .media = mediaBuffer,
               .lightMedia = lightMedia,
               .touching = touching,
+              .sky = sky,
               .missing = missing,
               .overflows = overflows,
               .lit = scene.lit,
               .near = scene.near,
+              .middle = scene.middle,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
+              .endlessCount = static_cast<uint>(std::ranges::count_if(scene.lights, isEndless)),
+              .discCount = scene.discCount,
               .targetCount = static_cast<uint>(scene.targets.size()),
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);

@@ -45,6 +45,9 @@ private:
     Buffer<Medium> mediaBuffer;
     Buffer<uint> lightMedia;
     Buffer<uint> touching;
+    Buffer<SkyTexel> skyTexels;
+    Buffer<float> skyRows;
+    Buffer<Sky> sky;
     Buffer<uint> missing;
     Buffer<uint> overflows;
 };

@@ -18,6 +18,15 @@ std::string placeList(const vec3& v, const Coordinates& coordinates) {
     return fmt::format("[{}, {}, {}]", number(0), number(1), number(2));
 }
 
+/// The keys of a lens; lengths are in a unit that is a power of two, so that none is rounded.
+std::string lensJson(const View& view) {
+    if (view.lens.aperture == 0) return "";
+    const float unit = static_cast<float>(view.coordinates.unit);
+    const std::string focus =
+        view.lens.focus > 0 ? fmt::format(R"(, "focusDistance": {})", unit * view.lens.focus) : "";
+    return fmt::format(R"(, "aperture": {}{})", unit * view.lens.aperture, focus);
+}
+
 /// The angle in degrees that is read as these radians.
 float degreesOf(float radians) {
     const float near = glm::degrees(radians);
@@ -58,9 +67,9 @@ View inWorldDigits(View view) {
 }
 
 std::string cameraJson(const View& view) {
-    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}}})",
+    return fmt::format(R"({{"origin": {}, "target": {}, "up": {}, "fieldOfView": {}{}}})",
                        placeList(view.origin, view.coordinates), placeList(view.target, view.coordinates),
-                       list(view.up), degreesOf(view.fieldOfView));
+                       list(view.up), degreesOf(view.fieldOfView), lensJson(view));
 }
 
 std::string withCamera(const std::string& text, const View& view) {

@@ -36,8 +36,19 @@ std::string sceneHash(const Scene& scene) {
     hash.add(scene.normals);
     hash.add(scene.materials);
     hash.add(scene.lights);
+    if (!scene.skyTexels.empty()) {
+        hash.add(scene.skyTexels);
+        hash.addWords(scene.sky);
+    }
     hash.add(scene.targets);
-    hash.addWords(scene.view);
+    const View& v = scene.view;
+    const struct {
+        vec3 origin, target, up;
+        float fieldOfView;
+        Coordinates coordinates;
+    } pinhole{v.origin, v.target, v.up, v.fieldOfView, v.coordinates};
+    hash.addWords(pinhole);
+    if (v.lens.aperture > 0) hash.addWords(v.lens);
     return hash.text();
 }
 

@@ -13,8 +13,6 @@ using nlohmann::json;
 
 namespace {
 
-const double sunDegrees = 0.53; // across, since glTF does not say it
-
 json placeJson(dvec3 place) { return {place.x, place.y, place.z}; }
 
 bool isFinitePlace(dvec3 v) { return std::isfinite(v.x + v.y + v.z); }
@@ -195,13 +193,14 @@ void Import::standInFront() {
 }
 
 Reader Import::lamps() {
-    lampsJson = json::array();
-    for (const GltfPlaced& lamp : nodes.lights) addLamp(lamp);
+    if (lampsJson.is_null()) {
+        lampsJson = json::array();
+        for (const GltfPlaced& lamp : nodes.lights) addLamp(lamp);
+    }
     return Reader{path, lampsJson};
 }
 
-/// A lamp of KHR_lights_punctual. A point of intensity I is a ball of radius r and radiance I / (pi r^2); a sun of
-/// irradiance E a far ball of half angle a and radiance E / (pi sin^2 a).
+/// A lamp of KHR_lights_punctual, which shines along -z of its node.
 void Import::addLamp(const GltfPlaced& lamp) {
     const Reader list = file->root().at("extensions").at("KHR_lights_punctual").at("lights");
     Reader light =
@@ -211,40 +210,39 @@ void Import::addLamp(const GltfPlaced& lamp) {
     const double strength = intensityReader ? double{intensityReader->number(notNegative)} : 1;
     const std::size_t kind = light.at("type").choice({"directional", "point", "spot"});
     const Transform transform = outer.after(lamp.matrix);
-    if (color * strength == dvec3{0} || !isFinitePlace(transform.point(dvec3{0}))) return;
+    const dvec3 place = transform.point(dvec3{0}), backwards = glm::normalize(transform.direction({0, 0, 1}));
+    if (color * strength == dvec3{0} || !isFinitePlace(place)) return;
+    if (kind != 1 && !isFinitePlace(backwards))
+        return losses.add(lamp.node, "a node that flattens its lamp is left out");
     if (kind == 0) {
-        const dvec3 toSun = glm::normalize(transform.direction({0, 0, 1}));
-        const double distance = 1000 * radius, sine = std::sin(glm::radians(sunDegrees / 2));
-        if (!isFinitePlace(toSun)) return losses.add(lamp.node, "a node that flattens its lamp is left out");
-        addSphere(lampsJson, center + distance * toSun, distance * sine,
-                  units.irradiance * strength / (glm::pi<double>() * sine * sine) * color);
-    } else if (kind == 2) {
-        losses.add(light, "a spot lamp is left out: vkpm has none yet");
-    } else if (!lampRadius) {
-        losses.add(light,
-                   "a point lamp is left out, since it has no size: \"import\" takes \"lampRadius\", in world units");
-    } else {
-        const double size = *lampRadius;
-        addSphere(lampsJson, transform.point(dvec3{0}), size,
-                  units.intensity * strength / (glm::pi<double>() * size * size) * color);
+        lampsJson.push_back({{"type", "sun"},
+                             {"direction", placeJson(backwards)},
+                             {"irradiance", placeJson(units.irradiance * strength * color)}});
+        return;
     }
+    json point{{"type", kind == 1 ? "point" : "spot"},
+               {"position", placeJson(place)},
+               {"intensity", placeJson(units.intensity * strength * color)}};
+    if (lampRadius) point["radius"] = *lampRadius;
+    if (kind == 2) addCones(light, -backwards, point);
+    lampsJson.push_back(point);
 }
 
-void Import::addSphere(json& shapes, dvec3 middle, double size, dvec3 radiance) const {
-    shapes.push_back(
-        {{"type", "sphere"}, {"center", placeJson(middle)}, {"radius", size}, {"emission", placeJson(radiance)}});
-}
-
-Reader Import::sky() {
-    losses.add(file->root(), "no light: a white sky of radiance 1 lights the whole");
-    const double far =
-        cameraJson.is_object()
-            ? glm::distance(center, {cameraJson["origin"][0], cameraJson["origin"][1], cameraJson["origin"][2]})
-            : 0;
-    skyJson = json::array();
-    addSphere(skyJson, center, 20 * std::max(radius, far), dvec3{1});
-    skyJson[0]["twoSided"] = true;
-    return Reader{path, skyJson};
+/// Half angles in radians, by default 0 and a quarter of pi.
+void Import::addCones(Reader& light, dvec3 direction, json& spot) const {
+    const auto cones = light.find("spot");
+    std::optional<Reader> inner, outer;
+    if (cones) {
+        Reader reader = *cones;
+        inner = reader.find("innerConeAngle");
+        outer = reader.find("outerConeAngle");
+    }
+    const float right = glm::half_pi<float>();
+    const double wide = outer ? double{outer->number({0, right, true})} : glm::quarter_pi<double>();
+    const double narrow = inner ? double{inner->number({0, right})} : 0;
+    spot["direction"] = placeJson(direction);
+    spot["outer"] = std::min(glm::degrees(wide), 90.0);
+    spot["inner"] = std::min(glm::degrees(narrow), glm::degrees(wide));
 }
 
 } // namespace vkpm

@@ -43,10 +43,10 @@ public:
     Reader camera();
     /// Width over height of that camera, if it says so.
     std::optional<float> aspect() const { return cameraAspect; }
-    /// Lamps as an array of shapes of a scene file, likewise.
+    /// Lamps as the "lights" of a scene file, likewise.
     Reader lamps();
-    /// A white sky about everything, for a scene without a light, as one shape.
-    Reader sky();
+    /// Says that a white sky lights the whole.
+    void loseLight() { losses.add(file->root(), "no light: a white sky of radiance 1 lights the whole"); }
 
     const std::vector<std::filesystem::path>& files() const { return file->files(); }
     void lose(const Reader& where, std::string_view what) { losses.add(where, what); }
@@ -66,7 +66,7 @@ private:
     bool useCamera(const GltfPlaced& camera);
     void standInFront();
     void addLamp(const GltfPlaced& lamp);
-    void addSphere(nlohmann::json& shapes, glm::dvec3 middle, double size, glm::dvec3 radiance) const;
+    void addCones(Reader& light, glm::dvec3 direction, nlohmann::json& spot) const;
 
     std::filesystem::path path;
     std::unique_ptr<GltfFile> file;
@@ -81,7 +81,7 @@ private:
     std::vector<ImportedInstance> placed;
     glm::dvec3 center{0}; // of a sphere about all parts, in world units
     double radius = 0;
-    nlohmann::json cameraJson, lampsJson = nlohmann::json::array(), skyJson = nlohmann::json::array();
+    nlohmann::json cameraJson, lampsJson;
     std::optional<float> cameraAspect;
 };
 

@@ -16,13 +16,23 @@ dvec3 lightFlux(const Light& light) {
     return sides * glm::pi<double>() * double{light.area} * dvec3{light.radiance};
 }
 
+void measureEndless(Scene& scene) {
+    const double disc = double{scene.lit.radius} * scene.lit.radius;
+    for (Light& light : scene.lights)
+        if (isEndless(light)) {
+            const double solidAngle = glm::pi<double>() * (light.kind == LIGHT_SUN ? 2 * double{light.u.y} : 4.0);
+            light.area = static_cast<float>(disc * solidAngle);
+        }
+}
+
 void chooseLights(Scene& scene, const std::filesystem::path& file) {
     dvec3 flux{0};
     for (const Light& light : scene.lights) flux += lightFlux(light);
     scene.flux = vec3{flux};
     const double total = luminance(flux);
     if (scene.lights.empty() || scene.flux == vec3{0})
-        refuseFile(file, ": /shapes", "there is no light", "give a shape an \"emission\" above 0");
+        refuseFile(file, ": /shapes", "there is no light",
+                   "give a shape an \"emission\" above 0, or the scene \"lights\" or an \"environment\"");
     if (!std::isfinite(scene.flux.x + scene.flux.y + scene.flux.z))
         refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
@@ -74,10 +84,45 @@ Target sphereOfNear(const Scene& scene) {
                     [&](const Primitive& p) { return p.light == NONE || !isFar(scene, scene.lights[p.light]); });
 }
 
+/// The distance from a place within which boxes lie, where it jumps, from the third part of them on; 0 if it does not.
+static double reachOfMost(const std::vector<Bounds>& boxes, dvec3 center) {
+    const double jump = 8;
+    std::vector<double> reaches;
+    for (const Bounds& box : boxes)
+        reaches.push_back(glm::length(glm::max(glm::abs(dvec3{box.low} - center), glm::abs(dvec3{box.high} - center))));
+    std::ranges::sort(reaches);
+    for (std::size_t i = (reaches.size() + 2) / 3; i < reaches.size(); i++)
+        if (reaches[i] > jump * reaches[i - 1]) return reaches[i - 1];
+    return 0;
+}
+
+void findMiddle(Scene& scene) {
+    std::vector<Bounds> boxes;
+    if (std::ranges::none_of(scene.lights, isEndless)) return;
+    for (std::size_t i = 0; i < scene.primitives.size(); i++)
+        if (const Primitive& p = scene.primitives[i]; p.light == NONE || scene.materials[p.material].color != vec3{0})
+            boxes.push_back(boxOf(p, i >= scene.triangleCount));
+    if (boxes.size() < 3) return;
+    dvec3 center{0};
+    for (int axis = 0; axis < 3; axis++) {
+        std::vector<double> middles;
+        for (const Bounds& box : boxes) middles.push_back(0.5 * (double{box.low[axis]} + double{box.high[axis]}));
+        const auto middle = middles.begin() + std::ptrdiff_t(middles.size() / 2);
+        std::ranges::nth_element(middles, middle);
+        center[axis] = *middle;
+    }
+    const double room = 2, radius = room * reachOfMost(boxes, center);
+    if (radius == 0) return;
+    scene.middle = {vec3{center}, static_cast<float>(radius)};
+    for (double wide = radius; wide < double{scene.lit.radius}; wide *= 4) scene.discCount++;
+}
+
 bool isFar(const Scene& scene, const Light& light) {
+    if (isEndless(light)) return false;
     const dvec3 a = dvec3{light.a} - dvec3{scene.lit.center}, u{light.u}, v{light.v};
     const double reach =
-        light.kind == LIGHT_SPHERE
+        isDelta(light) ? glm::length(a)
+        : light.kind == LIGHT_SPHERE
             ? glm::length(a) + u.x
             : std::max({glm::length(a), glm::length(a + u), glm::length(a + v), glm::length(a + u + v)});
     return reach > 1.9999 * double{scene.lit.radius};

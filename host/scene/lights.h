@@ -6,6 +6,12 @@
 
 namespace vkpm {
 
+inline bool isEndless(const Light& light) { return (ENDLESS_KINDS >> light.kind & 1) != 0; }
+inline bool isDelta(const Light& light) { return (DELTA_LIGHT_KINDS >> light.kind & 1) != 0; }
+
+/// Gives lights that are endlessly far their area: their flux is what comes through the disc about all that is lit.
+void measureEndless(Scene& scene);
+
 /// Flux of a light in W: pi times area times radiance, for each side that emits.
 glm::dvec3 lightFlux(const Light& light);
 
@@ -24,6 +30,10 @@ Target sphereOfLit(const Scene& scene);
 
 /// The sphere about all but far lights, a little wide, so that photons may start on it.
 Target sphereOfNear(const Scene& scene);
+
+/// Fills `middle`, about the middle of what is lit, if few primitives reach much farther than the others, such as the
+/// ground of a meadow, and `discCount`.
+void findMiddle(Scene& scene);
 
 /// Whether a point of a light may be farther from the middle of Scene::lit than its diameter, see aimAtLit in
 /// projection_map.glsl.

@@ -3,14 +3,17 @@
 #include "scene/bvh.h"
 #include "scene/hash.h"
 #include "scene/import.h"
+#include "scene/lamps.h"
 #include "scene/lights.h"
 #include "scene/materials.h"
 #include "scene/media.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
+#include "scene/sky.h"
 #include "scene/text.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace vkpm {
@@ -19,6 +22,28 @@ using glm::dvec3;
 namespace {
 
 constexpr std::size_t manyShapes = 10'000'000;
+
+/// By its radius, or as photographers say it.
+Lens readLens(Reader& camera, double unit) {
+    const auto aperture = camera.find("aperture"), focus = camera.find("focusDistance"), stop = camera.find("fStop"),
+               length = camera.find("focalLength"), meters = camera.find("unit");
+    double radius = aperture ? double{aperture->number(notNegative)} : 0;
+    if (stop || length || meters) {
+        if (aperture) aperture->fail("found \"aperture\" beside \"fStop\"", "give one of them");
+        if (!stop || !length)
+            (stop     ? *stop
+             : length ? *length
+                      : *meters)
+                .fail("found one of \"fStop\", \"focalLength\" and \"unit\" without the others",
+                      "give \"fStop\" and \"focalLength\" (mm), and \"unit\" if a world unit is no meter");
+        const double perUnit = meters ? double{meters->number(positive)} : 1;
+        radius = double{length->number(positive)} / 1000 / perUnit / (2 * double{stop->number(positive)});
+    }
+    const Lens lens{static_cast<float>(radius / unit),
+                    focus ? static_cast<float>(double{focus->number(positive)} / unit) : 0.0f};
+    if (!std::isfinite(lens.aperture)) camera.fail("the aperture overflows", "give a smaller one");
+    return lens;
+}
 
 View readView(Reader camera, const Coordinates& coordinates) {
     View view{.coordinates = coordinates};
@@ -29,6 +54,7 @@ View readView(Reader camera, const Coordinates& coordinates) {
     if (up) view.up = up->vector();
     if (const auto degrees = camera.find("fieldOfView"))
         view.fieldOfView = glm::radians(degrees->number({0, 179, true}));
+    view.lens = readLens(camera, coordinates.unit);
     camera.finish();
 
     if (view.target == view.origin) targetReader.fail("the target is the origin", "let the camera look somewhere else");
@@ -48,7 +74,11 @@ void readFilm(Reader film, Settings& settings) {
             size->fail(fmt::format("found {} x {} pixels", settings.size.x, settings.size.y),
                        "allowed are 2^28 in all");
     }
-    if (const auto exposure = film.find("exposure")) settings.exposure = exposure->number({-100, 100});
+    if (const auto exposure = film.find("exposure")) {
+        settings.autoExposure = exposure->isText();
+        if (settings.autoExposure) (void)exposure->choice({"auto"});
+        else settings.exposure = exposure->number({-100, 100});
+    }
     film.finish();
 }
 
@@ -139,8 +169,7 @@ void addImport(Import& import, Scene& scene, std::map<std::string, uint>& indice
             if (loader.add(part.place, part.mesh, instance.transform, surfaces[part.material]) > 0)
                 import.lose(part.place, "triangles without an area are left out");
         }
-    const Reader lamps = import.lamps();
-    for (std::size_t i = 0; i < lamps.count(0, NONE, ""); ++i) loader.add(lamps.element(i));
+    addLamps(import.lamps(), scene, loader);
 }
 
 void readScene(Reader root, Scene& scene) {
@@ -151,17 +180,30 @@ void readScene(Reader root, Scene& scene) {
     const auto film = root.find("film");
     const auto settings = root.find("settings");
     const auto materials = root.find("materials");
+    const auto environment = root.find("environment");
+    const auto lights = root.find("lights");
     const auto shapes = importReader ? root.find("shapes") : root.at("shapes");
     root.finish();
 
+    // What brings light of any strength is shown at its own, unless the scene says how.
+    scene.settings.autoExposure = importReader || environment || lights;
     if (camera) (void)readView(*camera, {}); // what is wrong with it comes first
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
     std::map<std::string, uint> indices;
     if (materials) indices = readMaterials(*materials, scene);
 
+    if (environment) readEnvironment(*environment, scene);
+    if (environment && scene.sky.visible == 0) {
+        scene.settings.coverage = true;
+        scene.settings.layers |= 1u << ASK_DEPTH; // which knows what is covered
+    }
+    if (lights) addSuns(*lights, scene);
     std::optional<Import> import;
-    if (importReader) noteFiles(scene, import.emplace(*importReader).files());
+    if (importReader) {
+        noteFiles(scene, import.emplace(*importReader).files());
+        addSuns(import->lamps(), scene);
+    }
     if (!camera) camera = importedCamera(*import, film, scene.settings);
     ShapeLoader loader{scene, indices};
     const std::size_t count = shapes ? shapes->count(1, manyShapes, "an array of shapes, at least one") : 0;
@@ -173,7 +215,11 @@ void readScene(Reader root, Scene& scene) {
     scene.view = readView(*camera, scene.coordinates);
     if (import) addImport(*import, scene, indices, loader);
     for (std::size_t i = 0; i < count; ++i) loader.add(shapes->element(i));
-    if (import && scene.lights.empty()) loader.add(import->sky().element(0));
+    if (lights) addLamps(*lights, scene, loader);
+    if (import && scene.lights.empty()) {
+        import->loseLight();
+        addConstantSky(scene, vec3{1});
+    }
     if (import) import->tellLosses(scene.warnings);
     loader.finish();
 }
@@ -205,10 +251,12 @@ Scene loadScene(const std::filesystem::path& file) {
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
     hashFiles(scene);
+    scene.lit = sphereOfLit(scene);
+    measureEndless(scene);
     chooseLights(scene, file);
     findMedia(scene, file);
-    scene.lit = sphereOfLit(scene);
     scene.near = sphereOfNear(scene);
+    findMiddle(scene);
 
     addBvh(scene);
     return scene;

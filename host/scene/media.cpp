@@ -1,6 +1,7 @@
 /// Media within glass.
 #include "scene/media.h"
 #include "scene/glass.h"
+#include "scene/lights.h"
 #include "scene/materials.h"
 #include "scene/text.h"
 #include "scene/touching.h"
@@ -96,8 +97,8 @@ double windingOf(const Primitive& p, dvec3 point) {
 dvec3 pointOf(const Light& light) {
     const dvec3 a{light.a};
     if (light.kind == LIGHT_SPHERE) return a + dvec3{light.u.x, 0, 0};
-    return light.kind == LIGHT_TRIANGLE ? a + (dvec3{light.u} + dvec3{light.v}) / 3.0
-                                        : a + (dvec3{light.u} + dvec3{light.v}) / 2.0;
+    if (light.kind == LIGHT_TRIANGLE) return a + (dvec3{light.u} + dvec3{light.v}) / 3.0;
+    return light.kind == LIGHT_RECTANGLE ? a + (dvec3{light.u} + dvec3{light.v}) / 2.0 : a;
 }
 
 } // namespace
@@ -124,7 +125,8 @@ void findMedia(Scene& scene, const std::filesystem::path& file) {
     for (Material& material : scene.materials)
         if (material.kind == MATERIAL_GLASS && material.alpha >= smoothestAlpha) material.kind = MATERIAL_ROUGH_GLASS;
     const MediaLocator locator{scene};
-    for (const Light& light : scene.lights) scene.lightMedia.push_back(locator.at(pointOf(light)));
+    for (const Light& light : scene.lights)
+        scene.lightMedia.push_back(isEndless(light) ? 0 : locator.at(pointOf(light)));
 }
 
 MediaLocator::MediaLocator(const Scene& scene) : media(scene.media.size()) {

@@ -1,4 +1,4 @@
-/// The pinhole camera of a view, and the list of files.
+/// The camera of a view, and the list of files.
 #include "scene/scene.h"
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,10 @@ Camera pinholeCamera(const View& view, uvec2 size) {
     const dvec3 forward = glm::normalize(dvec3{view.target} - dvec3{view.origin});
     const dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(dvec3{view.up})));
     const dvec3 up = glm::cross(right, forward);
-    return {view.origin, vec3{forward}, vec3{right * (tangent * aspect)}, vec3{up * tangent}};
+    const double focus =
+        view.lens.focus > 0 ? double{view.lens.focus} : glm::distance(dvec3{view.target}, dvec3{view.origin});
+    return {view.origin,        vec3{forward},      vec3{right * (tangent * aspect)},
+            vec3{up * tangent}, view.lens.aperture, static_cast<float>(focus)};
 }
 
 } // namespace vkpm

@@ -24,6 +24,14 @@ struct GlassShape {
     Bounds box{};
 };
 
+/// A lens in the unit of length of the scene; none of radius 0.
+struct Lens {
+    float aperture = 0; // radius
+    float focus = 0;    // distance along the axis; 0: that of the target
+
+    bool operator==(const Lens&) const = default;
+};
+
 /// Where the camera stands and looks; the field of view is vertical, in radians.
 struct View {
     vec3 origin{0, 0, 1};
@@ -31,6 +39,7 @@ struct View {
     vec3 up{0, 1, 0};
     float fieldOfView = glm::radians(40.0f);
     Coordinates coordinates{}; // of origin and target
+    Lens lens{};
 
     bool operator==(const View&) const = default;
 };
@@ -51,12 +60,17 @@ struct Scene {
     std::vector<uint> lightMedia; // likewise
     std::vector<uint> touching;   // likewise
     std::vector<GlassShape> glass;
-    std::vector<Light> lights;
+    std::vector<Light> lights;       // endlessly far ones first
+    Sky sky{};                       // but for its addresses
+    std::vector<SkyTexel> skyTexels; // none: there is no sky
+    std::vector<float> skyRows;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
     std::vector<float> targetWeights; // see DeviceScene
     Target lit{vec3{0}, 0};           // about all that light falls upon
     Target near{vec3{0}, 0};          // about all but far lights
+    Target middle{vec3{0}, 0};        // see DeviceScene
+    uint discCount = 1;               // likewise
     uint triangleCount = 0;
     uint stackSize = 0; // entries that a traversal of `nodes` needs at most
     vec3 flux{0};       // of all lights, W over the square of the unit of length
@@ -73,7 +87,7 @@ Scene loadScene(const std::filesystem::path& file);
 /// Adds files to those that were read, each once.
 void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files);
 
-/// The pinhole camera of a view for a film of `size` pixels.
+/// The camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);
 
 } // namespace vkpm

@@ -44,6 +44,7 @@ const std::vector<KeyHelp> keyHelp{
     {"Shift + drag, right button", "pan"},
     {"wheel, Ctrl + drag, + -", "dolly"},
     {"double click", "focus: orbit around this point"},
+    {"Shift + double click", "the lens is focused there"},
     {"W A S D, E Q", "fly; with Shift faster"},
     {"F", "drags look about, or orbit again"},
     {"arrows", "orbit; with Shift pan"},
@@ -124,6 +125,8 @@ void Controls::hold(const Event& event, const Scenery& scenery) {
         if (begins) held.push_back(event.code);
     }
 }
+
+bool Controls::shifted() const { return modifiers & GLFW_MOD_SHIFT; }
 
 void Controls::fly(double seconds, View& view) const {
     dvec3 direction{0};

@@ -47,6 +47,8 @@ public:
     /// was double-clicked, if any.
     std::optional<dvec2> take(const std::vector<Event>& events, const Scenery& scenery, double seconds,
                               Choices& choices);
+    /// Whether Shift was held at the last click.
+    bool shifted() const;
     /// Whether a key that flies is held.
     bool flying() const { return !held.empty(); }
 

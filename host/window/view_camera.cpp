@@ -76,6 +76,11 @@ View focus(View view, vec3 point) {
     return view;
 }
 
+View focusLens(View view, double depth) {
+    view.lens.focus = static_cast<float>(depth / view.coordinates.unit);
+    return view;
+}
+
 std::optional<double> depthAt(const Picture& picture, dvec2 place) {
     if (glm::any(glm::lessThan(place, dvec2(0))) || glm::any(glm::greaterThanEqual(place, dvec2(1)))) return {};
     const uvec2 pixel(place * dvec2(picture.size));

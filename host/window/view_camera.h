@@ -19,6 +19,9 @@ View fly(View view, dvec3 distances);
 /// Makes a point the target, and with it the centre of orbits.
 View focus(View view, vec3 point);
 
+/// Makes the lens see sharply what is at a depth, world units.
+View focusLens(View view, double depth);
+
 /// The depth (world units, along the camera's axis) of what a place of the film sees; places are in [0, 1]^2, y down.
 /// Nothing beside the film, or where no surface is.
 std::optional<double> depthAt(const Picture& picture, dvec2 place);

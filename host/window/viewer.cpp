@@ -1,6 +1,7 @@
 /// One turn of the loop: wait, take events, ask, draw.
 #include "window/viewer.h"
 #include "interrupt.h"
+#include "output/film_image.h"
 #include "scene/camera_json.h"
 #include <fmt/format.h>
 #include <imgui.h>
@@ -55,7 +56,7 @@ void Viewer::takeEvents() {
                           .popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup),
                           .typing = ImGui::GetIO().WantTextInput,
                           .view = state.sceneView,
-                          .exposure = state.settings.exposure};
+                          .exposure = sceneExposure()};
     const auto clicked = controls.take(events, scenery, secondsSince(lastFrame), choices);
     if (!picture) choices.request.view.reset();
     if (clicked) focusAt(*clicked);
@@ -66,10 +67,18 @@ void Viewer::takeEvents() {
     if (choices.quits) window.close();
 }
 
-/// The point that is seen at a place of the film becomes the target.
+/// The point that is seen at a place of the film becomes the target, or with Shift what the lens sees sharply.
 void Viewer::focusAt(dvec2 place) {
-    if (const auto depth = picture ? depthAt(*picture, place) : std::nullopt)
+    const auto depth = picture ? depthAt(*picture, place) : std::nullopt;
+    if (!depth) return;
+    if (!controls.shifted())
         choices.request.view = focus(viewNow(), pointAt(picture->view, picture->size, place, *depth));
+    else if (viewNow().lens.aperture > 0) choices.request.view = focusLens(viewNow(), *depth);
+    else about = "the scene's camera has no \"aperture\"";
+}
+
+float Viewer::sceneExposure() const {
+    return state.picture ? exposureOf(state.settings, state.picture->pixels) : state.settings.exposure;
 }
 
 /// The thread makes previews while the camera moves; one that was reset is at rest at once.
@@ -118,7 +127,7 @@ void Viewer::updateState() {
     const bool isFirst = !state.picture;
     const View sceneView = std::exchange(state, thread.state()).sceneView;
     if (sceneView != state.sceneView && picture) choices.request.view.reset(); // the file has another camera now
-    if (isFirst) choices.tone.exposure = state.settings.exposure;
+    if (isFirst) choices.tone.exposure = sceneExposure();
 }
 
 /// Shows pixels that were converted, and has the newest picture converted unless that is under way.

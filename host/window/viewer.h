@@ -20,6 +20,7 @@ private:
     double patience() const;
     void takeEvents();
     void focusAt(dvec2 place);
+    float sceneExposure() const;
     void updateState();
     void updateMotion();
     void updateSettings();

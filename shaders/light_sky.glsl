@@ -1,0 +1,95 @@
+// The sky: directions in proportion to the flux of its texels, uniform over the solid angle of each.
+#ifndef LIGHT_SKY_GLSL
+#define LIGHT_SKY_GLSL
+#include "common.glsl"
+#include "sampling.glsl"
+#include "shared_scene.h"
+
+// A direction to the sky, what comes from there, and the solid angle that it stands for: one over the density.
+struct SkyPoint {
+    vec3 w;
+    vec3 radiance;
+    float inversePdf;
+};
+
+// The difference of the cosines between which a row lies.
+float cosinesOfRow(Sky sky, uint row) {
+    return sky.rowHeight * unitCircle((float(row) + 0.5) / (2.0 * float(sky.height))).y;
+}
+
+float solidAngleOfTexel(Sky sky, uint row) { return sky.columnAngle * cosinesOfRow(sky, row); }
+
+// One minus the cosine of the angle between a row's upper edge and the pole.
+float heightOfRow(Sky sky, uint row) {
+    float sine = unitCircle(float(row) / (4.0 * float(sky.height))).y;
+    return 2.0 * sine * sine;
+}
+
+// Which part of the unit interval holds u: its index among `count` whose upper ends are given, its width, and where in
+// it u is.
+struct Part {
+    uint index;
+    float width;
+    float within;
+};
+
+Part partOf(float u, float low, float high, uint index) {
+    return Part(index, high - low, min((u - low) / (high - low), BELOW_ONE));
+}
+
+Part rowAt(Sky sky, float u) {
+    uint low = 0u, high = sky.height - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (u < floatPtr(sky.rows).at[middle]) high = middle;
+        else low = middle + 1u;
+    }
+    return partOf(u, low > 0u ? floatPtr(sky.rows).at[low - 1u] : 0.0, floatPtr(sky.rows).at[low], low);
+}
+
+Part columnAt(Sky sky, uint row, float u) {
+    uint first = row * sky.width, low = 0u, high = sky.width - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (u < SkyTexelPtr(sky.texels).at[first + middle].cdf) high = middle;
+        else low = middle + 1u;
+    }
+    return partOf(u, low > 0u ? SkyTexelPtr(sky.texels).at[first + low - 1u].cdf : 0.0,
+                  SkyTexelPtr(sky.texels).at[first + low].cdf, low);
+}
+
+// The direction at a place of a texel, both from 0 to 1; from the nearer pole, where a cosine has no digits.
+vec3 skyDirection(Sky sky, uint row, uint column, vec2 place) {
+    bool below = row >= (sky.height + 1u) / 2u;
+    uint fromPole = below ? sky.height - 1u - row : row;
+    float height = min(heightOfRow(sky, fromPole) + place.x * cosinesOfRow(sky, fromPole), 2.0);
+    float across = sqrt(height * (2.0 - height));
+    vec2 turn = unitCircle((float(column) + place.y) / float(sky.width)); // from the left edge, opposite to the front
+    return (below ? height - 1.0 : 1.0 - height) * sky.up - across * (turn.x * sky.front + turn.y * sky.right);
+}
+
+SkyPoint sampleSky(DeviceScene scene, vec2 u) {
+    Sky sky = SkyPtr(scene.sky).at[0];
+    Part row = rowAt(sky, u.x);
+    Part column = columnAt(sky, row.index, u.y);
+    return SkyPoint(skyDirection(sky, row.index, column.index, vec2(row.within, column.within)),
+                    SkyTexelPtr(sky.texels).at[row.index * sky.width + column.index].radiance,
+                    solidAngleOfTexel(sky, row.index) / (row.width * column.width));
+}
+
+// What comes from a direction; the solid angle is 0 where samples never go.
+SkyPoint skyAt(DeviceScene scene, vec3 w) {
+    Sky sky = SkyPtr(scene.sky).at[0];
+    vec3 p = vec3(dot(w, sky.front), dot(w, sky.right), dot(w, sky.up));
+    uint row = min(uint(angleAbove(vec2(p.z, length(p.xy))) * (float(sky.height) / PI)), sky.height - 1u);
+    float turn = angleAbove(vec2(p.x, abs(p.y))) / (2.0 * PI);
+    uint column = min(uint((0.5 + (p.y < 0.0 ? -turn : turn)) * float(sky.width)), sky.width - 1u);
+    uint index = row * sky.width + column;
+    float rowBefore = row > 0u ? floatPtr(sky.rows).at[row - 1u] : 0.0;
+    float before = column > 0u ? SkyTexelPtr(sky.texels).at[index - 1u].cdf : 0.0;
+    SkyTexel texel = SkyTexelPtr(sky.texels).at[index];
+    float probability = (floatPtr(sky.rows).at[row] - rowBefore) * (texel.cdf - before);
+    return SkyPoint(w, texel.radiance, probability > 0.0 ? solidAngleOfTexel(sky, row) / probability : GREATEST);
+}
+
+#endif
