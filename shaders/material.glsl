@@ -8,6 +8,7 @@
 #include "bsdf_plastic.glsl"
 #include "bsdf_polished.glsl"
 #include "bsdf_rough_glass.glsl"
+#include "bsdf_standard.glsl"
 #include "common.glsl"
 #include "lobes.glsl"
 #include "scattering.glsl"
@@ -87,21 +88,38 @@ vec3 diffuseBase(Material m, float rest) {
 }
 #undef X
 
+bool isStandard(Material m) { return (materialKinds & 1u << MATERIAL_STANDARD) != 0u && m.kind == MATERIAL_STANDARD; }
+
+float restOfRow(DeviceScene scene, uint row, float cosine) {
+    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
+    uint i = min(uint(x), REST_STEPS - 1u), first = row * REST_ROW;
+    return mix(floatPtr(scene.rests).at[first + i], floatPtr(scene.rests).at[first + i + 1u], x - float(i));
+}
+
+float meanRestOfRow(DeviceScene scene, uint row) { return floatPtr(scene.rests).at[row * REST_ROW + REST_MEAN]; }
+
 // The part of light at a cosine that the glossy lobe leaves.
 float restAt(DeviceScene scene, Material m, float cosine) {
     if (m.rest == NONE) return 0.0;
-    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
-    uint i = min(uint(x), REST_STEPS - 1u), row = m.rest * REST_ROW;
-    return mix(floatPtr(scene.rests).at[row + i], floatPtr(scene.rests).at[row + i + 1u], x - float(i));
+    float rest = restOfRow(scene, m.rest, cosine);
+    return isStandard(m) ? restStandard(m, rest, restOfRow(scene, m.rest + 1u, cosine)) : rest;
 }
 
-float meanRest(DeviceScene scene, Material m) { return floatPtr(scene.rests).at[m.rest * REST_ROW + REST_MEAN]; }
+float meanRest(DeviceScene scene, Material m) {
+    float rest = meanRestOfRow(scene, m.rest);
+    return isStandard(m) ? restStandard(m, rest, meanRestOfRow(scene, m.rest + 1u)) : rest;
+}
+
+// That of perfect facets where there is metal.
+float meanRestOfBase(DeviceScene scene, Material m) {
+    return meanRestOfRow(scene, isStandard(m) ? m.rest + 1u : m.rest);
+}
 
 // The diffuse lobe is separable, so that photon maps need no directions: base x rest(out) x rest(in) / (pi mean rest).
 // This is the factor of the direction in which the lobe is seen, with the base; it is also the lobe's albedo there.
 vec3 diffuseAlbedo(DeviceScene scene, Material m, float cosine) {
     if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return m.color;
-    return diffuseBase(m, meanRest(scene, m)) * restAt(scene, m, cosine);
+    return diffuseBase(m, meanRestOfBase(scene, m)) * restAt(scene, m, cosine);
 }
 
 // And this of the direction from which the light comes; its mean by the cosine law is 1.

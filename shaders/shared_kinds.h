@@ -27,7 +27,8 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 #define GLOSSY_MATERIALS(X)                                                                                            \
     X(4, METAL, Metal, LOBE_GLOSSY | LOBE_DIFFUSE, "rough metal")                                                      \
     X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")                                                      \
-    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")
+    X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")                                                          \
+    X(7, STANDARD, Standard, LOBE_GLOSSY | LOBE_DIFFUSE, "standard materials") /* glTF's metallic-roughness */
 
 // id, constant, name of functions, in words
 #define LIGHTS(X)                                                                                                      \

@@ -69,11 +69,15 @@ struct Material {
     uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
     float alpha;  // of a glossy lobe: roughness^2
     uint rest;    // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
+    vec3 normalIncidence; // standard: reflectance of its dielectric at normal incidence
+    float grazing;        // and at grazing incidence
+    float metallic;       // standard: how much of it is metal
 };
 BUFFER(Material)
 
 // What a glossy lobe leaves to the diffuse one, 1 - E(cos) where E is what the glossy one reflects: a row has the
-// values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law.
+// values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law. Standard materials have two rows: for
+// reflectances of 0 and of 1 at normal incidence, between which 1 - E is linear.
 const uint REST_STEPS = 32u;
 const uint REST_MEAN = REST_STEPS + 1u;
 const uint REST_ROW = REST_STEPS + 2u;

@@ -117,7 +117,7 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
         scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene.rests));
-    } else if (surface.radiance != vec3{0} && scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
+    } else if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material])) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
     }

@@ -31,29 +31,27 @@ Material readMirror(Reader& reader, std::vector<float>&) {
 /// Widths of lobes below this are those of a mirror: in 32-bit floats, nothing is left of the density of facets.
 constexpr float smooth = 1e-3f;
 
+float numberOr(Reader& reader, std::string_view key, float otherwise, Range range) {
+    const auto number = reader.find(key);
+    return number ? number->number(range) : otherwise;
+}
+
 float readAlpha(Reader& reader, float otherwise) {
-    const auto roughness = reader.find("roughness");
-    const float r = roughness ? roughness->number(fraction) : otherwise;
+    const float r = numberOr(reader, "roughness", otherwise, fraction);
     return r * r;
 }
 
-/// The row of a lobe, which is added if there is none like it.
-uint rowOf(std::vector<float>& rests, float alpha, double normalIncidence) {
-    const std::vector<float> row = restRow(double{alpha}, normalIncidence);
-    for (std::size_t i = 0; i < rests.size(); i += REST_ROW)
-        if (std::equal(row.begin(), row.end(), rests.begin() + std::ptrdiff_t(i))) return uint(i / REST_ROW);
-    rests.insert(rests.end(), row.begin(), row.end());
-    return uint(rests.size() / REST_ROW) - 1;
+/// Glass without a difference of indices has no rough surface either.
+Material glassOf(vec3 tint, float ior, float roughness) {
+    Material material{MATERIAL_GLASS, tint, ior, 0, roughness * roughness, NONE};
+    if (material.alpha >= smooth && std::abs(ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
+    return material;
 }
 
-/// Glass without a difference of indices has no rough surface either.
 Material readGlass(Reader& reader, std::vector<float>&) {
-    Material material{MATERIAL_GLASS, vec3{1}, readIor(reader)};
-    if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
-    material.alpha = readAlpha(reader, 0);
-    material.rest = NONE;
-    if (material.alpha >= smooth && std::abs(material.ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
-    return material;
+    const float ior = readIor(reader);
+    const auto tint = reader.find("tint");
+    return glassOf(tint ? tint->color(fraction) : vec3{1}, ior, numberOr(reader, "roughness", 0, fraction));
 }
 
 struct Metal {
@@ -81,7 +79,8 @@ Material readMetal(Reader& reader, std::vector<float>& rests) {
     const auto multiscatter = reader.find("multiscatter");
     const bool scattersMore = !multiscatter || multiscatter->boolean();
     if (alpha < smooth) return {MATERIAL_POLISHED, reflectance, 1};
-    return {MATERIAL_METAL, reflectance, 1, 0, alpha, scattersMore ? rowOf(rests, alpha, 1) : NONE};
+    return {
+        MATERIAL_METAL, reflectance, 1, 0, alpha, scattersMore ? placeRows(rests, restRow(double{alpha}, 1)) : NONE};
 }
 
 Material readPlastic(Reader& reader, std::vector<float>& rests) {
@@ -89,7 +88,32 @@ Material readPlastic(Reader& reader, std::vector<float>& rests) {
     const auto ior = reader.find("ior");
     const float index = ior ? ior->number({1, 1000}) : 1.5f, alpha = std::max(smooth, readAlpha(reader, 0.3f));
     const double r = (double{index} - 1) / (double{index} + 1);
-    return {MATERIAL_PLASTIC, albedo, index, 0, alpha, rowOf(rests, alpha, r * r)};
+    return {MATERIAL_PLASTIC, albedo, index, 0, alpha, placeRows(rests, restRow(double{alpha}, r * r))};
+}
+
+/// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission.
+Material readStandard(Reader& reader, std::vector<float>& rests) {
+    const auto color = reader.find("baseColor"), specularColor = reader.find("specularColor"),
+               transmissionReader = reader.find("transmission");
+    Material material{MATERIAL_STANDARD, color ? color->color(fraction) : vec3{1}};
+    material.metallic = numberOr(reader, "metallic", 1, fraction);
+    const float roughness = numberOr(reader, "roughness", 1, fraction);
+    material.ior = numberOr(reader, "ior", 1.5f, {0, 1000});
+    material.grazing = numberOr(reader, "specular", 1, fraction);
+    const float r = (material.ior - 1) / (material.ior + 1);
+    const vec3 specular = specularColor ? specularColor->color(notNegative) : vec3{1};
+    material.normalIncidence = glm::min(r * r * specular, vec3{1}) * material.grazing;
+
+    const float transmission = transmissionReader ? transmissionReader->number(fraction) : 0;
+    if (transmission > 0 && (transmission < 1 || material.metallic > 0))
+        transmissionReader->fail(
+            fmt::format("found {} of a material whose \"metallic\" is {}", transmission, material.metallic),
+            "allowed is 0, or 1 where \"metallic\" is 0");
+    if (transmission > 0) return glassOf(material.color, std::max(material.ior, 1e-3f), roughness);
+    if (material.grazing == 0 && material.metallic == 0) return {MATERIAL_DIFFUSE, material.color, 1};
+    material.alpha = std::max(smooth, roughness * roughness);
+    material.rest = placeRows(rests, standardRows(double{material.alpha}));
+    return material;
 }
 
 struct MaterialType {
@@ -98,11 +122,9 @@ struct MaterialType {
 };
 
 /// What "type" may be.
-const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse},
-                                              {"mirror", readMirror},
-                                              {"glass", readGlass},
-                                              {"metal", readMetal},
-                                              {"plastic", readPlastic}};
+const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse}, {"mirror", readMirror},
+                                              {"glass", readGlass},     {"metal", readMetal},
+                                              {"plastic", readPlastic}, {"standard", readStandard}};
 
 } // namespace
 

@@ -30,6 +30,17 @@ double soundArea(vec3 u, vec3 v) {
     return sound ? area : 0;
 }
 
+/// Of light from all directions, the part that a lobe over a diffuse one reflects; 1 of what has no such coat.
+float reflectedByCoat(const Material& material, const std::vector<float>& rests) {
+    const auto mean = [&](uint row) { return rests[row * REST_ROW + REST_MEAN]; };
+    if (material.kind == MATERIAL_PLASTIC) return 1 - mean(material.rest);
+    if (material.kind != MATERIAL_STANDARD) return 1;
+    const float none = mean(material.rest), all = mean(material.rest + 1), grazing = material.grazing,
+                f = std::max({material.normalIncidence.x, material.normalIncidence.y, material.normalIncidence.z}),
+                coat = grazing * (1 - none) + f * (none - all);
+    return std::max(material.metallic + (1 - material.metallic) * coat, 1e-3f);
+}
+
 /// The normal of unit length, or the triangle's own where there is none.
 vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
     const double length = glm::length(normal);
@@ -39,6 +50,10 @@ vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
 }
 
 } // namespace
+
+bool mayEmit(const Material& material) {
+    return material.kind == MATERIAL_DIFFUSE || material.kind == MATERIAL_STANDARD;
+}
 
 std::vector<dvec3> ShapeLoader::somePlaces(Reader shape) try {
     const Transform transform = readTransform(shape);
@@ -109,8 +124,8 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
     if (const auto name = shape.find("name")) (void)name->text();
 
     surface.material = readMaterial(shape, emission.has_value());
-    if (isSpecular(surface) && surface.radiance != vec3{0})
-        emission->fail("found emission on a material that is not diffuse", "only diffuse shapes may emit");
+    if (isSpecular(surface) && surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material]))
+        emission->fail("found emission on a material that is not diffuse", "only diffuse and standard shapes may emit");
     return surface;
 }
 
@@ -297,9 +312,8 @@ uint ShapeLoader::addNormals(const Primitive& primitive, const std::array<vec3, 
 void ShapeLoader::addTarget(const Surface& surface, const Target& target) {
     if (!isSpecular(surface)) return;
     const Material& material = scene.materials[surface.material];
-    const bool coat = material.kind == MATERIAL_PLASTIC;
     scene.targets.push_back(target);
-    scene.targetWeights.push_back(coat ? 1 - scene.rests[material.rest * REST_ROW + REST_MEAN] : 1);
+    scene.targetWeights.push_back(reflectedByCoat(material, scene.rests));
 }
 
 } // namespace vkpm

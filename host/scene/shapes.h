@@ -11,6 +11,9 @@
 
 namespace vkpm {
 
+/// Whether shapes of a material may emit: diffuse and standard ones.
+bool mayEmit(const Material& material);
+
 /// Fills the primitives, normals, lights and targets of a scene, shape by shape.
 class ShapeLoader {
 public:
