@@ -17,7 +17,7 @@ ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3
                          vec3 shading, float bulge, vec3 weight, uint column, vec2 place) {
     LightSample seen = sampleLight(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);
-    float cosine = cosineOfArrival(w, normal, shading, bulge) * diffuseArrivalAt(scene, from, dot(w, shading));
+    float cosine = cosineOfArrival(w, normal, shading, bulge) * diffuseArrivalAt(scene, from, origin, dot(w, shading));
     vec3 radiance =
         emittedRadiance(light, seen.point.normal, -w) * (cosine * seen.inversePdf / (PI * probability)) * weight;
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;

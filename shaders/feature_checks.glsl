@@ -28,6 +28,7 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
             triangle && PrimitivePtr(scene.primitives).at[primitive].normals != NONE &&
                 material.kind == MATERIAL_DIFFUSE,
             hasSmoothDiffuse, id_hasSmoothDiffuse);
+    require(scene, material.textures != 0u, hasTextures, id_hasTextures);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
     require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);

@@ -16,6 +16,7 @@
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"
+#include "texture.glsl"
 
 bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
 
@@ -88,8 +89,6 @@ vec3 diffuseBase(Material m, float rest) {
 }
 #undef X
 
-bool isStandard(Material m) { return (materialKinds & 1u << MATERIAL_STANDARD) != 0u && m.kind == MATERIAL_STANDARD; }
-
 float restOfRow(DeviceScene scene, uint row, float cosine) {
     float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
     uint i = min(uint(x), REST_STEPS - 1u), first = row * REST_ROW;
@@ -98,21 +97,34 @@ float restOfRow(DeviceScene scene, uint row, float cosine) {
 
 float meanRestOfRow(DeviceScene scene, uint row) { return floatPtr(scene.rests).at[row * REST_ROW + REST_MEAN]; }
 
+// Where roughness is a texture, between the rows of two roughnesses.
+float restOf(DeviceScene scene, Material m, uint row, float cosine) {
+    float rest = restOfRow(scene, row, cosine);
+    return hasTextures && m.restFraction > 0.0 ? mix(rest, restOfRow(scene, row + restRows(m), cosine), m.restFraction)
+                                               : rest;
+}
+
+float meanRestOf(DeviceScene scene, Material m, uint row) {
+    float rest = meanRestOfRow(scene, row);
+    return hasTextures && m.restFraction > 0.0 ? mix(rest, meanRestOfRow(scene, row + restRows(m)), m.restFraction)
+                                               : rest;
+}
+
 // The part of light at a cosine that the glossy lobe leaves.
 float restAt(DeviceScene scene, Material m, float cosine) {
     if (m.rest == NONE) return 0.0;
-    float rest = restOfRow(scene, m.rest, cosine);
-    return isStandard(m) ? restStandard(m, rest, restOfRow(scene, m.rest + 1u, cosine)) : rest;
+    float rest = restOf(scene, m, m.rest, cosine);
+    return isStandard(m) ? restStandard(m, rest, restOf(scene, m, m.rest + 1u, cosine)) : rest;
 }
 
 float meanRest(DeviceScene scene, Material m) {
-    float rest = meanRestOfRow(scene, m.rest);
-    return isStandard(m) ? restStandard(m, rest, meanRestOfRow(scene, m.rest + 1u)) : rest;
+    float rest = meanRestOf(scene, m, m.rest);
+    return isStandard(m) ? restStandard(m, rest, meanRestOf(scene, m, m.rest + 1u)) : rest;
 }
 
 // That of perfect facets where there is metal.
 float meanRestOfBase(DeviceScene scene, Material m) {
-    return meanRestOfRow(scene, isStandard(m) ? m.rest + 1u : m.rest);
+    return meanRestOf(scene, m, isStandard(m) ? m.rest + 1u : m.rest);
 }
 
 // The diffuse lobe is separable, so that photon maps need no directions: base x rest(out) x rest(in) / (pi mean rest).
@@ -128,11 +140,21 @@ float diffuseArrival(DeviceScene scene, Material m, float cosine) {
     return restAt(scene, m, cosine) / meanRest(scene, m);
 }
 
-// The same of the material of a primitive.
-float diffuseArrivalAt(DeviceScene scene, uint primitive, float cosine) {
+// The material of a surface where it was hit, with what its textures say there.
+Material materialAt(DeviceScene scene, Surface s, vec2 weights) {
+    Material m = MaterialPtr(scene.materials).at[s.material];
+    if (hasTextures && m.textures != 0u)
+        return texturedMaterial(scene, m, SLOT_COLOR, s.primitive, weights, s.position);
+    return m;
+}
+
+// The factor of arrival at the material of a primitive, at a place next to it.
+float diffuseArrivalAt(DeviceScene scene, uint primitive, vec3 position, float cosine) {
     if (!hasLayered) return 1.0;
-    return diffuseArrival(scene, MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material],
-                          cosine);
+    Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
+    if (hasTextures && m.textures != 0u)
+        m = texturedMaterial(scene, m, SLOT_METALLIC, primitive, weightsAt(scene, primitive, position), position);
+    return diffuseArrival(scene, m, cosine);
 }
 
 // The normal about which light of direction d is scattered, on its side: the shading normal where d is on its side too.

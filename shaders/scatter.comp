@@ -145,7 +145,7 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
 
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
-    Material material = MaterialPtr(scene.materials).at[surface.material];
+    Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     uint outcome;

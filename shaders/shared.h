@@ -88,7 +88,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(28, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
     X(29, bool, hasGuide, true)                                                                                        \
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
-    X(31, bool, hasContact, true)
+    X(31, bool, hasContact, true)                                                                                      \
+    X(32, bool, hasTextures, true)
 
 #ifdef __cplusplus
 struct Features {

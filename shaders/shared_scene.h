@@ -3,6 +3,7 @@
 #define SHARED_SCENE_H
 #include "shared.h"
 #include "shared_kinds.h"
+#include "shared_textures.h"
 
 SHARED_BEGIN
 
@@ -72,6 +73,8 @@ struct Material {
     vec3 normalIncidence; // standard: reflectance of its dielectric at normal incidence
     float grazing;        // and at grazing incidence
     float metallic;       // standard: how much of it is metal
+    uint textures;        // 0, or 1 + index into DeviceScene.materialTextures
+    float restFraction;   // how far on to the row of the next roughness `rest` is
 };
 BUFFER(Material)
 
@@ -81,6 +84,8 @@ BUFFER(Material)
 const uint REST_STEPS = 32u;
 const uint REST_MEAN = REST_STEPS + 1u;
 const uint REST_ROW = REST_STEPS + 2u;
+
+const float LEAST_ALPHA = 1e-3f; // of lobes: in 32-bit floats, nothing is left of the density of narrower ones
 
 /// A diffuse area light; it emits `radiance` on the side of its normal, or on both.
 struct Light {
@@ -125,12 +130,18 @@ struct DeviceScene {
     ADDRESS(Target) targets;
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers
-    ADDRESS(uint) missing;        // a bit for each feature that a kernel needed and was without, if checksFeatures
-    Target lit;                   // about all that light falls upon
-    Target near;                  // about all but far lights
+    ADDRESS(MaterialTextures) materialTextures;
+    ADDRESS(Texture) textures;
+    ADDRESS(TexelImage) images;
+    ADDRESS(uint) texels;               // tables, then words of images, see TexelImage
+    ADDRESS(TexturePlaces) coordinates; // of all triangles in the order of primitives, one set after the other
+    ADDRESS(uint) missing; // a bit for each feature that a kernel needed and was without, if checksFeatures
+    Target lit;            // about all that light falls upon
+    Target near;           // about all but far lights
     uint triangleCount;
     uint lightCount;
     uint targetCount;
+    uint coordinateSets;
     float unit; // of lengths, in world units: a power of two
     Camera camera;
 };

@@ -46,7 +46,7 @@ bool sees(DeviceScene scene, Photon photon, vec3 toPhoton, out vec3 radiance) {
     Hit hit = closest(scene, scene.camera.origin, direction, NONE);
     if (hit.primitive == NONE) return false;
     Surface surface = surfaceAt(scene, Path(scene.camera.origin, direction, vec3(1.0), 0.0, NONE, 0u), hit);
-    Material material = MaterialPtr(scene.materials).at[surface.material];
+    Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
 

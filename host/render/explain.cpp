@@ -66,6 +66,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
 #define X(id, NAME, name, lobes, words) has("has" #name, f.materialKinds >> id & 1, words);
     MATERIALS(X)
 #undef X
+    has("hasTextures", f.hasTextures, "textures");
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");

@@ -81,9 +81,11 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     for (const Light& light : scene.lights) features.lightKinds |= 1u << light.kind;
     const bool glass = hasMaterials(features, GLASS_KINDS);
     features.hasContact = glass && glassMayTouchOpaque(scene);
-    features.hasTint = anyMaterial([](const Material& m) { return isGlass(m) && m.color != vec3(1); });
+    features.hasTint =
+        anyMaterial([](const Material& m) { return isGlass(m) && (m.color != vec3(1) || m.textures != 0); });
     features.hasExactFresnel = glass && !settings.schlick;
     features.hasSchlickFresnel = glass && settings.schlick;
+    features.hasTextures = anyMaterial([](const Material& m) { return m.textures != 0; });
     features.hasManyLights = scene.lights.size() > 1;
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasGuide = 0; // the renderer finds out

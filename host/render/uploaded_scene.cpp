@@ -26,6 +26,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       directCdf(uploaded(gpu, "scene direct cdf", scene.lightCdf)),
       targets(uploaded(gpu, "scene targets", scene.targets)),
       targetWeights(uploaded(gpu, "scene target weights", scene.targetWeights)),
+      materialTextures(uploaded(gpu, "scene material textures", scene.textured.materials)),
+      textures(uploaded(gpu, "scene textures", scene.textured.textures)),
+      images(uploaded(gpu, "scene images", scene.textured.images)),
+      texels(uploaded(gpu, "scene texels", scene.textured.texels)),
+      coordinates(uploaded(gpu, "scene texture coordinates", scene.textured.coordinates)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})) {
     device = {.nodes = nodes,
               .leaves = leaves,
@@ -38,12 +43,18 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .targets = targets,
               .targetWeights = targetWeights,
               .rests = rests,
+              .materialTextures = materialTextures,
+              .textures = textures,
+              .images = images,
+              .texels = texels,
+              .coordinates = coordinates,
               .missing = missing,
               .lit = scene.lit,
               .near = scene.near,
               .triangleCount = scene.triangleCount,
               .lightCount = static_cast<uint>(scene.lights.size()),
               .targetCount = static_cast<uint>(scene.targets.size()),
+              .coordinateSets = scene.textured.sets,
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);
     setView(scene.view, settings.size);

@@ -39,6 +39,11 @@ private:
     Buffer<float> directCdf;
     Buffer<Target> targets;
     Buffer<float> targetWeights;
+    Buffer<MaterialTextures> materialTextures;
+    Buffer<Texture> textures;
+    Buffer<TexelImage> images;
+    Buffer<uint> texels;
+    Buffer<TexturePlaces> coordinates;
     Buffer<uint> missing;
 };
 

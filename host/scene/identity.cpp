@@ -38,6 +38,13 @@ std::string sceneHash(const Scene& scene) {
     hash.add(scene.lights);
     hash.add(scene.targets);
     hash.addWords(scene.view);
+    if (!scene.textured.images.empty()) {
+        hash.add(scene.textured.materials);
+        hash.add(scene.textured.textures);
+        hash.add(scene.textured.images);
+        hash.add(scene.textured.texels);
+        hash.add(scene.textured.coordinates);
+    }
     return hash.text();
 }
 

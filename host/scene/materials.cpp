@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <tbb/parallel_for.h>
 
 namespace vkpm {
 namespace {
@@ -20,38 +21,64 @@ float readIor(Reader& glass) {
     return ratio;
 }
 
-Material readDiffuse(Reader& reader, std::vector<float>&) {
-    return {MATERIAL_DIFFUSE, reader.at("albedo").color(fraction), 1};
+const MaterialTextures noTextures{NONE, NONE, NONE, NONE};
+
+/// Rows of the roughnesses of a texture, by those of one alpha.
+template <class Rows> std::vector<float> rowsOfTexture(Rows rowsOf) {
+    std::vector<std::vector<float>> all(ROUGHNESS_STEPS + 1);
+    tbb::parallel_for(0u, ROUGHNESS_STEPS + 1, [&](uint i) {
+        const double r = double(i) / ROUGHNESS_STEPS;
+        all[i] = rowsOf(std::max(r * r, double{LEAST_ALPHA}));
+    });
+    std::vector<float> rows;
+    for (const std::vector<float>& some : all) rows.insert(rows.end(), some.begin(), some.end());
+    return rows;
 }
 
-Material readMirror(Reader& reader, std::vector<float>&) {
+/// Gives a lobe its width and what it leaves to a diffuse one, `rowsOf` its alpha, where roughness may be a texture.
+template <class Rows>
+void setRoughness(Material& material, float roughness, bool textured, Textures& textures, Rows rowsOf) {
+    material.alpha = std::max(LEAST_ALPHA, roughness * roughness);
+    material.rest = placeRows(textures.scene.rests, textured ? rowsOfTexture(rowsOf) : rowsOf(double{material.alpha}));
+}
+
+Material readDiffuse(Reader& reader, Textures& textures) {
+    MaterialTextures slots = noTextures;
+    Material material{MATERIAL_DIFFUSE, textures.color(reader.at("albedo"), fraction, slots.color), 1};
+    material.textures = textures.place(slots);
+    return material;
+}
+
+Material readMirror(Reader& reader, Textures&) {
     return {MATERIAL_MIRROR, reader.at("reflectance").color(fraction), 1};
 }
-
-/// Widths of lobes below this are those of a mirror: in 32-bit floats, nothing is left of the density of facets.
-constexpr float smooth = 1e-3f;
 
 float numberOr(Reader& reader, std::string_view key, float otherwise, Range range) {
     const auto number = reader.find(key);
     return number ? number->number(range) : otherwise;
 }
 
-float readAlpha(Reader& reader, float otherwise) {
-    const float r = numberOr(reader, "roughness", otherwise, fraction);
-    return r * r;
+/// A roughness, or the greatest of its texture.
+float readRoughness(Reader& reader, float otherwise, Textures& textures, uint& slot, uint channel = 0) {
+    const auto roughness = reader.find("roughness");
+    return roughness ? textures.number(*roughness, fraction, slot, channel) : otherwise;
 }
 
 /// Glass without a difference of indices has no rough surface either.
 Material glassOf(vec3 tint, float ior, float roughness) {
     Material material{MATERIAL_GLASS, tint, ior, 0, roughness * roughness, NONE};
-    if (material.alpha >= smooth && std::abs(ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
+    if (material.alpha >= LEAST_ALPHA && std::abs(ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
     return material;
 }
 
-Material readGlass(Reader& reader, std::vector<float>&) {
+Material readGlass(Reader& reader, Textures& textures) {
+    MaterialTextures slots = noTextures;
     const float ior = readIor(reader);
     const auto tint = reader.find("tint");
-    return glassOf(tint ? tint->color(fraction) : vec3{1}, ior, numberOr(reader, "roughness", 0, fraction));
+    Material material =
+        glassOf(tint ? tint->color(fraction) : vec3{1}, ior, readRoughness(reader, 0, textures, slots.roughness));
+    material.textures = textures.place(slots);
+    return material;
 }
 
 struct Metal {
@@ -63,41 +90,56 @@ const std::vector<Metal> metals{{"gold", {1.000f, 0.766f, 0.336f}},   {"silver",
                                 {"copper", {0.955f, 0.637f, 0.538f}}, {"aluminium", {0.913f, 0.921f, 0.925f}},
                                 {"iron", {0.560f, 0.570f, 0.580f}},   {"chromium", {0.549f, 0.556f, 0.554f}}};
 
-vec3 readReflectance(Reader& reader) {
+vec3 readReflectance(Reader& reader, Textures& textures, uint& slot) {
     const auto preset = reader.find("preset");
     const auto reflectance = reader.find("reflectance");
     if (preset && reflectance) preset->fail("found both \"preset\" and \"reflectance\"", "give one of them");
-    if (!preset) return (reflectance ? *reflectance : reader.at("reflectance")).color(fraction);
+    if (!preset) return textures.color(reflectance ? *reflectance : reader.at("reflectance"), fraction, slot);
     std::vector<std::string_view> names;
     for (const Metal& metal : metals) names.push_back(metal.name);
     return metals[preset->choice(names)].reflectance;
 }
 
-Material readMetal(Reader& reader, std::vector<float>& rests) {
-    const vec3 reflectance = readReflectance(reader);
-    const float alpha = readAlpha(reader, 0);
+Material readMetal(Reader& reader, Textures& textures) {
+    MaterialTextures slots = noTextures;
+    const vec3 reflectance = readReflectance(reader, textures, slots.color);
+    const float roughness = readRoughness(reader, 0, textures, slots.roughness);
     const auto multiscatter = reader.find("multiscatter");
     const bool scattersMore = !multiscatter || multiscatter->boolean();
-    if (alpha < smooth) return {MATERIAL_POLISHED, reflectance, 1};
-    return {
-        MATERIAL_METAL, reflectance, 1, 0, alpha, scattersMore ? placeRows(rests, restRow(double{alpha}, 1)) : NONE};
+    const bool polished = roughness * roughness < LEAST_ALPHA;
+    if (polished) slots.roughness = NONE;
+    Material material{polished ? MATERIAL_POLISHED : MATERIAL_METAL, reflectance, 1};
+    material.textures = textures.place(slots);
+    if (polished) return material;
+    setRoughness(material, roughness, slots.roughness != NONE, textures,
+                 [](double alpha) { return restRow(alpha, 1); });
+    if (!scattersMore) material.rest = NONE;
+    return material;
 }
 
-Material readPlastic(Reader& reader, std::vector<float>& rests) {
-    const vec3 albedo = reader.at("albedo").color(fraction);
+Material readPlastic(Reader& reader, Textures& textures) {
+    MaterialTextures slots = noTextures;
+    const vec3 albedo = textures.color(reader.at("albedo"), fraction, slots.color);
     const auto ior = reader.find("ior");
-    const float index = ior ? ior->number({1, 1000}) : 1.5f, alpha = std::max(smooth, readAlpha(reader, 0.3f));
+    const float index = ior ? ior->number({1, 1000}) : 1.5f,
+                roughness = readRoughness(reader, 0.3f, textures, slots.roughness);
     const double r = (double{index} - 1) / (double{index} + 1);
-    return {MATERIAL_PLASTIC, albedo, index, 0, alpha, placeRows(rests, restRow(double{alpha}, r * r))};
+    Material material{MATERIAL_PLASTIC, albedo, index};
+    setRoughness(material, roughness, slots.roughness != NONE, textures,
+                 [r](double alpha) { return restRow(alpha, r * r); });
+    material.textures = textures.place(slots);
+    return material;
 }
 
-/// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission.
-Material readStandard(Reader& reader, std::vector<float>& rests) {
+/// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission. As in glTF,
+/// metal is in the blue of a texture, roughness in the green.
+Material readStandard(Reader& reader, Textures& textures) {
+    MaterialTextures slots = noTextures;
     const auto color = reader.find("baseColor"), specularColor = reader.find("specularColor"),
-               transmissionReader = reader.find("transmission");
-    Material material{MATERIAL_STANDARD, color ? color->color(fraction) : vec3{1}};
-    material.metallic = numberOr(reader, "metallic", 1, fraction);
-    const float roughness = numberOr(reader, "roughness", 1, fraction);
+               transmissionReader = reader.find("transmission"), metallicReader = reader.find("metallic");
+    Material material{MATERIAL_STANDARD, color ? textures.color(*color, fraction, slots.color) : vec3{1}};
+    material.metallic = metallicReader ? textures.number(*metallicReader, fraction, slots.metallic, 2) : 1;
+    const float roughness = readRoughness(reader, 1, textures, slots.roughness, 1);
     material.ior = numberOr(reader, "ior", 1.5f, {0, 1000});
     material.grazing = numberOr(reader, "specular", 1, fraction);
     const float r = (material.ior - 1) / (material.ior + 1);
@@ -109,16 +151,16 @@ Material readStandard(Reader& reader, std::vector<float>& rests) {
         transmissionReader->fail(
             fmt::format("found {} of a material whose \"metallic\" is {}", transmission, material.metallic),
             "allowed is 0, or 1 where \"metallic\" is 0");
-    if (transmission > 0) return glassOf(material.color, std::max(material.ior, 1e-3f), roughness);
-    if (material.grazing == 0 && material.metallic == 0) return {MATERIAL_DIFFUSE, material.color, 1};
-    material.alpha = std::max(smooth, roughness * roughness);
-    material.rest = placeRows(rests, standardRows(double{material.alpha}));
+    if (transmission > 0) material = glassOf(material.color, std::max(material.ior, 1e-3f), roughness);
+    else if (material.grazing == 0 && material.metallic == 0) material = {MATERIAL_DIFFUSE, material.color, 1};
+    else setRoughness(material, roughness, slots.roughness != NONE, textures, standardRows);
+    material.textures = textures.place(slots);
     return material;
 }
 
 struct MaterialType {
     std::string_view name;
-    Material (*read)(Reader&, std::vector<float>& rests);
+    Material (*read)(Reader&, Textures& textures);
 };
 
 /// What "type" may be.
@@ -128,10 +170,10 @@ const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse}, {"mirror
 
 } // namespace
 
-Material readMaterial(Reader reader, std::vector<float>& rests) {
+Material readMaterial(Reader reader, Textures& textures) {
     std::vector<std::string_view> names;
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
-    const Material material = materialTypes[reader.at("type").choice(names)].read(reader, rests);
+    const Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures);
     reader.finish();
     return material;
 }

@@ -1,11 +1,13 @@
 /// Materials of a scene file.
 #pragma once
 #include "scene/reader.h"
+#include "scene/textures.h"
 #include "shared_scene.h"
 
 namespace vkpm {
 
-/// A material as kernels read it; what it needs of Scene::rests is added to `rests`. Throws InputError.
-Material readMaterial(Reader reader, std::vector<float>& rests);
+/// A material as kernels read it; what it needs of rests and textures is added to those of the scene. Throws
+/// InputError.
+Material readMaterial(Reader reader, Textures& textures);
 
 } // namespace vkpm

@@ -28,6 +28,16 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+/// Textures, see shared_textures.h; all are empty where nothing has one.
+struct TextureArrays {
+    std::vector<MaterialTextures> materials;
+    std::vector<Texture> textures;
+    std::vector<TexelImage> images;
+    std::vector<uint> texels;
+    std::vector<TexturePlaces> coordinates; // of all triangles, one set after the other
+    uint sets = 0;
+};
+
 struct Scene {
     Coordinates coordinates{};                     // of all places and lengths here and on the device
     std::string name;                              // the file's name without folder and extension
@@ -40,6 +50,7 @@ struct Scene {
     std::vector<Normals> normals;
     std::vector<Material> materials;
     std::vector<float> rests; // see DeviceScene
+    TextureArrays textured;
     std::vector<Light> lights;
     std::vector<float> lightCdf;
     std::vector<Target> targets;
