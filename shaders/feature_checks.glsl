@@ -29,6 +29,7 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
                 material.kind == MATERIAL_DIFFUSE,
             hasSmoothDiffuse, id_hasSmoothDiffuse);
     require(scene, material.textures != 0u, hasTextures, id_hasTextures);
+    require(scene, material.seeThrough > 0.0, hasOpacity, id_hasOpacity);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);
     require(scene, glass && material.schlick == 0u, hasExactFresnel, id_hasExactFresnel);

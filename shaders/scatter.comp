@@ -167,6 +167,9 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
         arrives = maxComponent(photon.color) > 0.0;
         deposit = PhotonDeposit(photon, slot, index);
     }
+    // Of a surface that stops a part alone the eye sees as much; what it sees is lit by all of the light.
+    if (hasOpacity && arrives && material.seeThrough > 0.0)
+        deposit.photon.color /= max(opacityAt(scene, material, hit.primitive, hit.weights, surface.position), 1e-6);
     return outcome;
 }
 

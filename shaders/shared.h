@@ -89,7 +89,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(29, bool, hasGuide, true)                                                                                        \
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
     X(31, bool, hasContact, true)                                                                                      \
-    X(32, bool, hasTextures, true)
+    X(32, bool, hasTextures, true)                                                                                     \
+    X(33, bool, hasOpacity, true)
 
 #ifdef __cplusplus
 struct Features {

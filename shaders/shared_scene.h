@@ -75,6 +75,8 @@ struct Material {
     float metallic;       // standard: how much of it is metal
     uint textures;        // 0, or 1 + index into DeviceScene.materialTextures
     float restFraction;   // how far on to the row of the next roughness `rest` is
+    float seeThrough;     // 1 - opacity; 1 where that is a texture
+    float cutoff;         // > 0: what is less opaque is not there, all else whole
 };
 BUFFER(Material)
 

@@ -67,6 +67,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     MATERIALS(X)
 #undef X
     has("hasTextures", f.hasTextures, "textures");
+    has("hasOpacity", f.hasOpacity, "surfaces that are not opaque");
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");

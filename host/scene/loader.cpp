@@ -117,7 +117,8 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
         scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, textures));
-    } else if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material])) {
+    } else if (const Material& its = scene.materials[surface.material];
+               surface.radiance != vec3{0} && (!mayEmit(its) || its.seeThrough > 0)) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
     }

@@ -21,8 +21,6 @@ float readIor(Reader& glass) {
     return ratio;
 }
 
-const MaterialTextures noTextures{NONE, NONE, NONE, NONE};
-
 /// Rows of the roughnesses of a texture, by those of one alpha.
 template <class Rows> std::vector<float> rowsOfTexture(Rows rowsOf) {
     std::vector<std::vector<float>> all(ROUGHNESS_STEPS + 1);
@@ -42,14 +40,12 @@ void setRoughness(Material& material, float roughness, bool textured, Textures& 
     material.rest = placeRows(textures.scene.rests, textured ? rowsOfTexture(rowsOf) : rowsOf(double{material.alpha}));
 }
 
-Material readDiffuse(Reader& reader, Textures& textures) {
-    MaterialTextures slots = noTextures;
+Material readDiffuse(Reader& reader, Textures& textures, MaterialTextures& slots) {
     Material material{MATERIAL_DIFFUSE, textures.color(reader.at("albedo"), fraction, slots.color), 1};
-    material.textures = textures.place(slots);
     return material;
 }
 
-Material readMirror(Reader& reader, Textures&) {
+Material readMirror(Reader& reader, Textures&, MaterialTextures&) {
     return {MATERIAL_MIRROR, reader.at("reflectance").color(fraction), 1};
 }
 
@@ -71,13 +67,11 @@ Material glassOf(vec3 tint, float ior, float roughness) {
     return material;
 }
 
-Material readGlass(Reader& reader, Textures& textures) {
-    MaterialTextures slots = noTextures;
+Material readGlass(Reader& reader, Textures& textures, MaterialTextures& slots) {
     const float ior = readIor(reader);
     const auto tint = reader.find("tint");
     Material material =
         glassOf(tint ? tint->color(fraction) : vec3{1}, ior, readRoughness(reader, 0, textures, slots.roughness));
-    material.textures = textures.place(slots);
     return material;
 }
 
@@ -100,8 +94,7 @@ vec3 readReflectance(Reader& reader, Textures& textures, uint& slot) {
     return metals[preset->choice(names)].reflectance;
 }
 
-Material readMetal(Reader& reader, Textures& textures) {
-    MaterialTextures slots = noTextures;
+Material readMetal(Reader& reader, Textures& textures, MaterialTextures& slots) {
     const vec3 reflectance = readReflectance(reader, textures, slots.color);
     const float roughness = readRoughness(reader, 0, textures, slots.roughness);
     const auto multiscatter = reader.find("multiscatter");
@@ -109,7 +102,6 @@ Material readMetal(Reader& reader, Textures& textures) {
     const bool polished = roughness * roughness < LEAST_ALPHA;
     if (polished) slots.roughness = NONE;
     Material material{polished ? MATERIAL_POLISHED : MATERIAL_METAL, reflectance, 1};
-    material.textures = textures.place(slots);
     if (polished) return material;
     setRoughness(material, roughness, slots.roughness != NONE, textures,
                  [](double alpha) { return restRow(alpha, 1); });
@@ -117,8 +109,7 @@ Material readMetal(Reader& reader, Textures& textures) {
     return material;
 }
 
-Material readPlastic(Reader& reader, Textures& textures) {
-    MaterialTextures slots = noTextures;
+Material readPlastic(Reader& reader, Textures& textures, MaterialTextures& slots) {
     const vec3 albedo = textures.color(reader.at("albedo"), fraction, slots.color);
     const auto ior = reader.find("ior");
     const float index = ior ? ior->number({1, 1000}) : 1.5f,
@@ -127,14 +118,12 @@ Material readPlastic(Reader& reader, Textures& textures) {
     Material material{MATERIAL_PLASTIC, albedo, index};
     setRoughness(material, roughness, slots.roughness != NONE, textures,
                  [r](double alpha) { return restRow(alpha, r * r); });
-    material.textures = textures.place(slots);
     return material;
 }
 
 /// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission. As in glTF,
 /// metal is in the blue of a texture, roughness in the green.
-Material readStandard(Reader& reader, Textures& textures) {
-    MaterialTextures slots = noTextures;
+Material readStandard(Reader& reader, Textures& textures, MaterialTextures& slots) {
     const auto color = reader.find("baseColor"), specularColor = reader.find("specularColor"),
                transmissionReader = reader.find("transmission"), metallicReader = reader.find("metallic");
     Material material{MATERIAL_STANDARD, color ? textures.color(*color, fraction, slots.color) : vec3{1}};
@@ -154,13 +143,24 @@ Material readStandard(Reader& reader, Textures& textures) {
     if (transmission > 0) material = glassOf(material.color, std::max(material.ior, 1e-3f), roughness);
     else if (material.grazing == 0 && material.metallic == 0) material = {MATERIAL_DIFFUSE, material.color, 1};
     else setRoughness(material, roughness, slots.roughness != NONE, textures, standardRows);
-    material.textures = textures.place(slots);
     return material;
+}
+
+/// The part of what meets a surface that it stops. What nothing goes through is opaque.
+void readOpacity(Reader& reader, Material& material, Textures& textures, MaterialTextures& slots) {
+    const auto opacity = reader.find("opacity"), cutoff = reader.find("cutoff");
+    if (cutoff && !opacity) cutoff->fail("found a \"cutoff\" without \"opacity\"", "give both, or none");
+    if (!opacity) return;
+    const float greatest = textures.number(*opacity, fraction, slots.opacity);
+    if (cutoff) material.cutoff = cutoff->number(fraction);
+    const bool always = cutoff && material.cutoff == 0;
+    if (always) slots.opacity = NONE;
+    material.seeThrough = always ? 0 : slots.opacity != NONE ? 1 : 1 - greatest;
 }
 
 struct MaterialType {
     std::string_view name;
-    Material (*read)(Reader&, Textures& textures);
+    Material (*read)(Reader&, Textures& textures, MaterialTextures& slots);
 };
 
 /// What "type" may be.
@@ -173,7 +173,10 @@ const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse}, {"mirror
 Material readMaterial(Reader reader, Textures& textures) {
     std::vector<std::string_view> names;
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
-    const Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures);
+    MaterialTextures slots{NONE, NONE, NONE, NONE};
+    Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures, slots);
+    readOpacity(reader, material, textures, slots);
+    material.textures = textures.place(slots);
     reader.finish();
     return material;
 }
