@@ -29,7 +29,7 @@ ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3
     LightView seen = viewLight(scene, light, origin, place);
     vec3 w = seen.w;
     float arrival = cosineOfArrival(w, normal, shading, bulge);
-    float cosine = arrival * diffuseArrivalAt(scene, from, dot(w, shading));
+    float cosine = arrival * diffuseArrivalAt(scene, from, origin, dot(w, shading));
     if (hasEndless && alsoFound && (seen.flags & SHADOW_ENDLESS) != 0u)
         cosine *= lightSampleWeight(seen.inversePdf / probability, unpackPdf(packPdf(arrival / PI)));
     vec3 radiance = seen.radiance * (cosine * seen.inversePdf / (PI * probability)) * weight;

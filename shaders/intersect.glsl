@@ -68,11 +68,11 @@ float intersectTriangle(Ray ray, vec3 a, vec3 b, vec3 c, out vec2 weights) {
     return intersectPermuted(ray, permute(a, major), permute(b, major), permute(c, major), weights);
 }
 
-// The nearer root that is > 0, or -1; `pole` is the sphere's point next to the origin of coordinates. For origins
-// within two radii of the centre the power of the origin leaves no cancellation that matters; for those farther away,
-// to which the sphere is small, the discriminant comes from the distance of the line to the centre. The roots are
+// Both roots, the nearer one first, or -1 twice; `pole` is the sphere's point next to the origin of coordinates. For
+// origins within two radii of the centre the power of the origin leaves no cancellation that matters; for those farther
+// away, to which the sphere is small, the discriminant comes from the distance of the line to the centre. The roots are
 // without cancellation (Haines et al. 2019).
-float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
+vec2 sphereRoots(Ray ray, vec3 center, float radius, vec3 pole) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
     float distance2 = dot(f, f);
@@ -81,13 +81,19 @@ float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
     float power = spherePower(ray.origin, center, pole);
     vec3 closest = f + (b / a) * ray.direction;
     float discriminant = isNear ? b * b - a * power : a * (radius * radius - dot(closest, closest));
-    if (discriminant < 0.0) return -1.0;
+    if (discriminant < 0.0) return vec2(-1.0);
     float distance = sqrt(distance2);
     float c = isNear ? power : (distance - radius) * (distance + radius);
     float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant);
     float near = min(c / q, q / a);
     float far = max(c / q, q / a);
-    return q == 0.0 ? -1.0 : near > 0.0 ? near : far > 0.0 ? far : -1.0;
+    return q == 0.0 ? vec2(-1.0) : vec2(near, far);
+}
+
+// The nearer root that is > 0, or -1.
+float intersectSphere(Ray ray, vec3 center, float radius, vec3 pole) {
+    vec2 roots = sphereRoots(ray, center, radius, pole);
+    return roots.x > 0.0 ? roots.x : roots.y > 0.0 ? roots.y : -1.0;
 }
 
 #endif

@@ -3,11 +3,17 @@
 #define LOBES_GLSL
 #include "common.glsl"
 #include "shared_kinds.h"
+#include "shared_scene.h"
 
 // Which lobes the materials of a scene have; layered ones have a diffuse lobe and another.
 const bool hasDiffuse = (materialKinds & DIFFUSE_KINDS) != 0u;
 const bool hasSpecular = (materialKinds & SPECULAR_KINDS) != 0u;
 const bool hasGlossy = (materialKinds & GLOSSY_KINDS) != 0u;
 const bool hasLayered = (materialKinds & LAYERED_KINDS) != 0u;
+
+bool isStandard(Material m) { return (materialKinds & 1u << MATERIAL_STANDARD) != 0u && m.kind == MATERIAL_STANDARD; }
+
+// Rows of DeviceScene.rests for each roughness.
+uint restRows(Material m) { return isStandard(m) ? 2u : 1u; }
 
 #endif

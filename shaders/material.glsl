@@ -8,6 +8,7 @@
 #include "bsdf_plastic.glsl"
 #include "bsdf_polished.glsl"
 #include "bsdf_rough_glass.glsl"
+#include "bsdf_standard.glsl"
 #include "bsdf_thin_glass.glsl"
 #include "common.glsl"
 #include "light_kinds.glsl"
@@ -17,6 +18,7 @@
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"
+#include "texture.glsl"
 
 bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
 
@@ -89,21 +91,49 @@ vec3 diffuseBase(Material m, float rest) {
 }
 #undef X
 
+float restOfRow(DeviceScene scene, uint row, float cosine) {
+    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
+    uint i = min(uint(x), REST_STEPS - 1u), first = row * REST_ROW;
+    return mix(floatPtr(scene.rests).at[first + i], floatPtr(scene.rests).at[first + i + 1u], x - float(i));
+}
+
+float meanRestOfRow(DeviceScene scene, uint row) { return floatPtr(scene.rests).at[row * REST_ROW + REST_MEAN]; }
+
+// Where roughness is a texture, between the rows of two roughnesses.
+float restOf(DeviceScene scene, Material m, uint row, float cosine) {
+    float rest = restOfRow(scene, row, cosine);
+    return hasTextures && m.restFraction > 0.0 ? mix(rest, restOfRow(scene, row + restRows(m), cosine), m.restFraction)
+                                               : rest;
+}
+
+float meanRestOf(DeviceScene scene, Material m, uint row) {
+    float rest = meanRestOfRow(scene, row);
+    return hasTextures && m.restFraction > 0.0 ? mix(rest, meanRestOfRow(scene, row + restRows(m)), m.restFraction)
+                                               : rest;
+}
+
 // The part of light at a cosine that the glossy lobe leaves.
 float restAt(DeviceScene scene, Material m, float cosine) {
     if (m.rest == NONE) return 0.0;
-    float x = sqrt(clamp(cosine, 0.0, 1.0)) * float(REST_STEPS);
-    uint i = min(uint(x), REST_STEPS - 1u), row = m.rest * REST_ROW;
-    return mix(floatPtr(scene.rests).at[row + i], floatPtr(scene.rests).at[row + i + 1u], x - float(i));
+    float rest = restOf(scene, m, m.rest, cosine);
+    return isStandard(m) ? restStandard(m, rest, restOf(scene, m, m.rest + 1u, cosine)) : rest;
 }
 
-float meanRest(DeviceScene scene, Material m) { return floatPtr(scene.rests).at[m.rest * REST_ROW + REST_MEAN]; }
+float meanRest(DeviceScene scene, Material m) {
+    float rest = meanRestOf(scene, m, m.rest);
+    return isStandard(m) ? restStandard(m, rest, meanRestOf(scene, m, m.rest + 1u)) : rest;
+}
+
+// That of perfect facets where there is metal.
+float meanRestOfBase(DeviceScene scene, Material m) {
+    return meanRestOf(scene, m, isStandard(m) ? m.rest + 1u : m.rest);
+}
 
 // The diffuse lobe is separable, so that photon maps need no directions: base x rest(out) x rest(in) / (pi mean rest).
 // This is the factor of the direction in which the lobe is seen, with the base; it is also the lobe's albedo there.
 vec3 diffuseAlbedo(DeviceScene scene, Material m, float cosine) {
     if (!hasLayered || m.kind == MATERIAL_DIFFUSE) return m.color;
-    return diffuseBase(m, meanRest(scene, m)) * restAt(scene, m, cosine);
+    return diffuseBase(m, meanRestOfBase(scene, m)) * restAt(scene, m, cosine);
 }
 
 // And this of the direction from which the light comes; its mean by the cosine law is 1.
@@ -112,11 +142,21 @@ float diffuseArrival(DeviceScene scene, Material m, float cosine) {
     return restAt(scene, m, cosine) / meanRest(scene, m);
 }
 
-// The same of the material of a primitive.
-float diffuseArrivalAt(DeviceScene scene, uint primitive, float cosine) {
+// The material of a surface where it was hit, with what its textures say there.
+Material materialAt(DeviceScene scene, Surface s, vec2 weights) {
+    Material m = MaterialPtr(scene.materials).at[s.material];
+    if (hasTextures && m.textures != 0u)
+        return texturedMaterial(scene, m, SLOT_COLOR, s.primitive, weights, s.position);
+    return m;
+}
+
+// The factor of arrival at the material of a primitive, at a place next to it.
+float diffuseArrivalAt(DeviceScene scene, uint primitive, vec3 position, float cosine) {
     if (!hasLayered) return 1.0;
-    return diffuseArrival(scene, MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material],
-                          cosine);
+    Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
+    if (hasTextures && m.textures != 0u)
+        m = texturedMaterial(scene, m, SLOT_METALLIC, primitive, weightsAt(scene, primitive, position), position);
+    return diffuseArrival(scene, m, cosine);
 }
 
 // The normal about which light of direction d is scattered, on its side: the shading normal where d is on its side too.

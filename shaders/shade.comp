@@ -149,7 +149,7 @@ void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface su
     if (!departs(direction, normal, bulge)) return;
     uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
-    float arrival = diffuseArrivalAt(scene, surface.primitive, dot(direction, shading));
+    float arrival = diffuseArrivalAt(scene, surface.primitive, surface.position, dot(direction, shading));
     vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
                        path.throughput * albedo / survival * arrival, 0.0, surface.primitive, flags, path.media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
@@ -235,7 +235,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
         return vertex;
     }
     Surface surface = surfaceAt(scene, path, hit);
-    Material material = MaterialPtr(scene.materials).at[surface.material];
+    Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;

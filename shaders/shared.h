@@ -92,7 +92,9 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(32, bool, hasMedia, true)                                                                                        \
     X(33, bool, hasDispersion, true)                                                                                   \
     X(34, bool, hasTouching, true)                                                                                     \
-    X(35, bool, hasLens, true)
+    X(35, bool, hasLens, true)                                                                                         \
+    X(36, bool, hasTextures, true)                                                                                     \
+    X(37, bool, hasOpacity, true)
 
 #ifdef __cplusplus
 struct Features {

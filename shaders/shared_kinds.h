@@ -29,6 +29,7 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
     X(4, METAL, Metal, LOBE_GLOSSY | LOBE_DIFFUSE, "rough metal")                                                      \
     X(5, PLASTIC, Plastic, LOBE_GLOSSY | LOBE_DIFFUSE, "plastic")                                                      \
     X(6, ROUGH_GLASS, RoughGlass, LOBE_GLOSSY, "rough glass")                                                          \
+    X(7, STANDARD, Standard, LOBE_GLOSSY | LOBE_DIFFUSE, "standard materials") /* glTF's metallic-roughness */         \
     X(9, ROUGH_THIN_GLASS, RoughThinGlass, LOBE_GLOSSY, "rough sheets of glass")
 
 // id, constant, name of functions, in words

@@ -4,6 +4,7 @@
 #include "shared.h"
 #include "shared_kinds.h"
 #include "shared_sky.h"
+#include "shared_textures.h"
 
 SHARED_BEGIN
 
@@ -64,15 +65,22 @@ struct Normals {
 BUFFER(Normals)
 
 struct Material {
-    uint kind;     // MATERIAL_...
-    vec3 color;    // albedo, reflectance (of metal at normal incidence), or factor at each refraction, within [0, 1]
-    float ior;     // glass: index inside / index outside; plastic: of its coat
-    uint schlick;  // glass: 1 for Schlick's reflectance in place of the exact one
-    float alpha;   // of a glossy lobe: roughness^2
-    uint rest;     // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
-    uint medium;   // glass: what it is filled with, index into DeviceScene.media
-    uint exterior; // glass: what is outside of it, likewise; NONE: what a path was in
-    vec2 spread;   // glass: what is added to `ior` for red and for blue
+    uint kind;    // MATERIAL_...
+    vec3 color;   // albedo, reflectance (of metal at normal incidence), or factor at each refraction, within [0, 1]
+    float ior;    // glass: index inside / index outside; plastic: of its coat
+    uint schlick; // glass: 1 for Schlick's reflectance in place of the exact one
+    float alpha;  // of a glossy lobe: roughness^2
+    uint rest;    // of a glossy lobe and a diffuse one: row of DeviceScene.rests; NONE: the diffuse one is left out
+    vec3 normalIncidence; // standard: reflectance of its dielectric at normal incidence
+    float grazing;        // and at grazing incidence
+    float metallic;       // standard: how much of it is metal
+    uint textures;        // 0, or 1 + index into DeviceScene.materialTextures
+    float restFraction;   // how far on to the row of the next roughness `rest` is
+    float seeThrough;     // 1 - opacity; 1 where that is a texture
+    float cutoff;         // > 0: what is less opaque is not there, all else whole
+    uint medium;          // glass: what it is filled with, index into DeviceScene.media
+    uint exterior;        // glass: what is outside of it, likewise; NONE: what a path was in
+    vec2 spread;          // glass: what is added to `ior` for red and for blue
 };
 BUFFER(Material)
 
@@ -89,10 +97,13 @@ const uint MEDIUM_BITS = 8u; // a path knows the four media that it is in: those
 const uint MAX_MEDIA = 1u << MEDIUM_BITS;
 
 // What a glossy lobe leaves to the diffuse one, 1 - E(cos) where E is what the glossy one reflects: a row has the
-// values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law.
+// values at cosines (i / (REST_STEPS))^2, then the mean by the cosine law. Standard materials have two rows: for
+// reflectances of 0 and of 1 at normal incidence, between which 1 - E is linear.
 const uint REST_STEPS = 32u;
 const uint REST_MEAN = REST_STEPS + 1u;
 const uint REST_ROW = REST_STEPS + 2u;
+
+const float LEAST_ALPHA = 1e-3f; // of lobes: in 32-bit floats, nothing is left of the density of narrower ones
 
 /// A light. Area lights emit `radiance` on the side of their normal, or on both.
 struct Light {
@@ -143,6 +154,11 @@ struct DeviceScene {
     ADDRESS(uint) lightMedia; // by light, of paths that start there
     ADDRESS(uint) touching; // by triangle, where the list of those that may lie on it begins, here too; then the lists
     ADDRESS(Sky) sky;
+    ADDRESS(MaterialTextures) materialTextures;
+    ADDRESS(Texture) textures;
+    ADDRESS(TexelImage) images;
+    ADDRESS(uint) texels;               // tables, then words of images, see TexelImage
+    ADDRESS(TexturePlaces) coordinates; // of all triangles in the order of primitives, one set after the other
     ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
     ADDRESS(uint) overflows; // how often a path was in more than four media
     Target lit;              // about all that light falls upon
@@ -153,9 +169,9 @@ struct DeviceScene {
     uint endlessCount; // of the first lights
     uint discCount;    // across directions from endlessly far: the middle's, each four times as wide, and that of `lit`
     uint targetCount;
+    uint coordinateSets;
     float unit;       // of lengths, in world units: a power of two
     uint cameraMedia; // of paths that start at the camera
-    uint unused;      // C++ rounds sizes up to 8 bytes
     Camera camera;
 };
 BUFFER(DeviceScene)

@@ -49,7 +49,7 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
     Hit hit = closest(scene, eye, direction, NONE);
     if (hit.primitive == NONE) return false;
     Surface surface = surfaceAt(scene, Path(eye, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
-    Material material = MaterialPtr(scene.materials).at[surface.material];
+    Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (!isDiffuse(material) || !isAt(photon, surface, direction)) return false;
 

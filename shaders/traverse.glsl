@@ -5,6 +5,7 @@
 #include "intersect.glsl"
 #include "light_kinds.glsl"
 #include "offset.glsl"
+#include "opacity.glsl"
 #include "shared_camera.h"
 #include "shared_paths.h"
 #include "shared_scene.h"
@@ -45,6 +46,14 @@ bool isSmoothDiffuse(DeviceScene scene, uint id) {
     return MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind == MATERIAL_DIFFUSE;
 }
 
+// Where a sphere that may let a part of the light through stops a ray: at either root, or -1.
+float sphereStop(DeviceScene scene, Ray ray, uint id, vec3 center, float radius, vec3 pole) {
+    vec2 roots = sphereRoots(ray, center, radius, pole);
+    if (roots.x > 0.0 && !letsThrough(scene, ray, id, roots.x, vec2(0.0), false)) return roots.x;
+    if (roots.y > 0.0 && !letsThrough(scene, ray, id, roots.y, vec2(0.0), true)) return roots.y;
+    return -1.0;
+}
+
 // One leaf primitive; a nearer hit replaces `hit`, and of two at the same distance the lower primitive wins,
 // so that the result does not depend on the tree. A ray cannot hit the triangle `from` that it leaves.
 void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool any, inout Hit hit,
@@ -53,8 +62,9 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
     vec2 weights = vec2(0.0);
     float t;
     if (hasSpheres && (!hasTriangles || id >= scene.triangleCount)) {
-        t = intersectSphere(ray, LeafPtr(scene.leaves).at[slot].a, LeafPtr(scene.leaves).at[slot].b.x,
-                            LeafPtr(scene.leaves).at[slot].c);
+        vec3 center = LeafPtr(scene.leaves).at[slot].a, pole = LeafPtr(scene.leaves).at[slot].c;
+        float radius = LeafPtr(scene.leaves).at[slot].b.x;
+        t = hasOpacity ? sphereStop(scene, ray, id, center, radius, pole) : intersectSphere(ray, center, radius, pole);
     } else {
         // Loads in the order of the ray's axes save the exchange.
         LeafNumbersPtr leaves = LeafNumbersPtr(scene.leaves);
@@ -65,6 +75,8 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
     if (!(t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive)))) return;
+    if (hasOpacity && hasTriangles && id < scene.triangleCount && letsThrough(scene, ray, id, t, weights, false))
+        return;
     if (any && hasSmoothDiffuse && passage.allowed && isSmoothDiffuse(scene, id)) {
         passage.triangles++;
         return;

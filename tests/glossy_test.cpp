@@ -2,6 +2,7 @@
 #include "judge.h"
 #include "map.h"
 #include "scene/rest.h"
+#include "scene_on_device.h"
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -13,6 +14,12 @@ Material metal(double alpha, vec3 reflectance = vec3{1}) {
 }
 
 Material plastic(double alpha) { return {MATERIAL_PLASTIC, vec3{0.5f}, 1.5f, 0, static_cast<float>(alpha), NONE}; }
+
+/// With its two rows, of which tests put the first at 0.
+Material standard(double alpha, float metallic, vec3 base = vec3{1}, vec3 normalIncidence = vec3{0.04f},
+                  float grazing = 1) {
+    return {MATERIAL_STANDARD, base, 1.5f, 0, static_cast<float>(alpha), 0, normalIncidence, grazing, metallic};
+}
 
 vec3 direction(double z, double turns) {
     const double r = std::sqrt(1 - z * z);
@@ -66,6 +73,40 @@ TEST(Glossy, SamplesHaveTheWeightsOfTheirDensity) {
                     ASSERT_NEAR(values[i].value.x / values[i].pdfAt, samples[i].weight.x, 1e-3) << alpha << cosine;
                 }
                 EXPECT_NEAR(mean.mean(), albedo(row, cosine), 2e-3) << alpha << " " << cosine;
+            }
+}
+
+// The white furnace: what the glossy lobe reflects, by its samples, and the diffuse one by its albedo are all of the
+// light, from wherever it comes; coloured, no channel has more.
+TEST(Glossy, StandardMaterialsLoseAndGainNothing) {
+    for (const double alpha : {1e-3, 0.1, 0.5, 1.0})
+        for (const float metallic : {0.0f, 0.5f, 1.0f})
+            for (const auto& [normalIncidence, grazing] : {std::pair{0.04f, 1.0f}, {0.5f, 1.0f}, {0.02f, 0.5f}}) {
+                Scene scene = sceneOf({triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}, 1);
+                scene.rests = standardRows(alpha);
+                const TestScene device(scene);
+                for (const double cosine : {1.0, 0.5, 0.1}) {
+                    const Material white = standard(alpha, metallic, vec3{1}, vec3{normalIncidence}, grazing),
+                                   red = standard(alpha, metallic, {1, 0.5f, 0}, {0.5f, 0.04f, 0}, grazing);
+                    std::vector<GlossyCase> xs;
+                    const int side = 64;
+                    for (const Material& material : {white, red})
+                        for (int i = 0; i < side * side; i++)
+                            xs.push_back({material,
+                                          direction(cosine, 0.1),
+                                          {0, 0, 1},
+                                          {(float(i % side) + 0.5f) / side, (float(i / side) + 0.5f) / side}});
+                    const auto samples = map<GlossyValues>("glossy", xs);
+                    const std::vector<vec3> diffuse = map<vec3>(
+                        "diffuse_albedo", std::vector<GlossyCase>{xs.front(), xs.back()}, {}, device.context());
+                    glm::dvec3 sums[2]{};
+                    for (std::size_t i = 0; i < xs.size(); i++)
+                        sums[i / (side * side)] += glm::dvec3{samples[i].weight} / double(side * side);
+                    for (int c = 0; c < 3; c++) {
+                        EXPECT_NEAR(sums[0][c] + double{diffuse[0][c]}, 1, 3e-3) << alpha << metallic << cosine;
+                        EXPECT_LT(sums[1][c] + double{diffuse[1][c]}, 1 + 3e-3) << alpha << metallic << cosine;
+                    }
+                }
             }
 }
 
@@ -136,8 +177,12 @@ TEST(Glossy, ValuesAreReciprocal) {
     Random random(9);
     std::vector<GlossyCase> forth, back;
     for (int i = 0; i < 100'000; i++) {
-        const Material material =
-            random.bits() % 2 ? metal(random.between(0.01f, 1), {0.9f, 0.5f, 0.2f}) : plastic(random.between(0.01f, 1));
+        const float alpha = random.between(0.01f, 1);
+        const uint kind = random.bits() % 3;
+        const Material material = kind == 0 ? metal(alpha, {0.9f, 0.5f, 0.2f})
+                                  : kind == 1
+                                      ? plastic(alpha)
+                                      : standard(alpha, random.unit(), {0.9f, 0.5f, 0.2f}, {0.1f, 0, 0.3f}, 0.7f);
         const vec3 a = direction(random.between(0.01f, 1), random.unit()),
                    b = direction(random.between(0.01f, 1), random.unit());
         forth.push_back({material, a, b, {}});

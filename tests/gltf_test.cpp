@@ -172,7 +172,7 @@ TEST(Gltf, LampsHaveTheirIrradiance) {
     EXPECT_NEAR(irradiance("model.glb", 0), 1, 1e-4);
 }
 
-TEST(Gltf, MaterialsAreTheNearestOfVkpm) {
+TEST(Gltf, MaterialsAreStandardOnesOrGlass) {
     GltfText model = squareModel();
     model.json["meshes"][0]["primitives"][0]["material"] = 0;
     const auto materialOf = [&](const char* text, const json& more = json::object()) {
@@ -185,18 +185,34 @@ TEST(Gltf, MaterialsAreTheNearestOfVkpm) {
     };
     Material m =
         materialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1], "metallicFactor": 0}})");
-    EXPECT_EQ(m.kind, MATERIAL_DIFFUSE);
+    EXPECT_EQ(m.kind, MATERIAL_STANDARD);
     EXPECT_EQ(m.color, vec3(0.25, 0.5, 0.75));
-    m = materialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "roughnessFactor": 0}})");
-    EXPECT_EQ(m.kind, MATERIAL_MIRROR);
-    EXPECT_EQ(m.color, vec3(1, 0.5, 0.25));
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.alpha, 1);
+    EXPECT_NEAR(m.normalIncidence.x, 0.04, 1e-7);
+    m = materialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "roughnessFactor": 0},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 30, 0]}}})");
+    EXPECT_EQ(m.alpha, 1e-3f);
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(m.grazing, 0.5f);
+    EXPECT_NEAR(m.normalIncidence.x, 0.02, 1e-7);
+    EXPECT_EQ(m.normalIncidence.y, 0.5f);
+    EXPECT_EQ(m.normalIncidence.z, 0);
+    m = materialOf(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.1, 0.2, 0.3, 1], "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.5}}})");
+    EXPECT_EQ(m.color, vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.normalIncidence, vec3(0.5f, 0.6f, 0.7f));
+    EXPECT_EQ(m.alpha, 0.25f);
     const char* const glass = R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.25}}})";
     m = materialOf(glass);
     EXPECT_EQ(m.kind, MATERIAL_GLASS);
     EXPECT_EQ(m.ior, 1.25f);
     EXPECT_EQ(materialOf(glass, {{"glass", "thin"}}).ior, 1.0f);
-    EXPECT_EQ(materialOf("{}").kind, MATERIAL_DIFFUSE); // a metal of roughness 1
+    m = materialOf("{}"); // a metal of roughness 1
+    EXPECT_EQ(m.kind, MATERIAL_STANDARD);
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(m.alpha, 1);
 }
 
 TEST(Gltf, EmissionIsRadianceAndSidesAreKept) {

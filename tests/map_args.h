@@ -86,6 +86,11 @@ struct SurfaceValues {
     uint light;
 };
 
+struct TextureCase {
+    uint texture;
+    vec2 coordinates;
+};
+
 struct ScatterCase {
     Material material;
     vec3 normal;

@@ -71,6 +71,8 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasMedia", f.hasMedia, "glass that takes light away, or lies in other glass");
     has("hasDispersion", f.hasDispersion, "glass that refracts colours apart");
     has("hasTouching", f.hasTouching, "faces of glass that lie on each other");
+    has("hasTextures", f.hasTextures, "textures");
+    has("hasOpacity", f.hasOpacity, "surfaces that are not opaque");
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");

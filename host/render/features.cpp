@@ -88,10 +88,13 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasDispersion =
         std::ranges::any_of(scene.media, [](const Medium& medium) { return medium.spread != vec2{0}; });
     features.hasTouching = !scene.touching.empty();
-    features.hasTint =
-        anyMaterial([](const Material& m) { return (DIELECTRIC_KINDS >> m.kind & 1) != 0 && m.color != vec3(1); });
+    features.hasTint = anyMaterial([](const Material& m) {
+        return (DIELECTRIC_KINDS >> m.kind & 1) != 0 && (m.color != vec3(1) || m.textures != 0);
+    });
     features.hasExactFresnel = glass && !settings.schlick;
     features.hasSchlickFresnel = glass && settings.schlick;
+    features.hasTextures = anyMaterial([](const Material& m) { return m.textures != 0; });
+    features.hasOpacity = anyMaterial([](const Material& m) { return m.seeThrough > 0; });
     features.hasManyLights = scene.lights.size() > 1;
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasLens = scene.view.lens.aperture > 0;

@@ -33,6 +33,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       lightMedia(uploaded(gpu, "scene light media", scene.lightMedia)),
       touching(uploaded(gpu, "scene touching", scene.touching)),
       skyTexels(uploaded(gpu, "sky texels", scene.skyTexels)), skyRows(uploaded(gpu, "sky rows", scene.skyRows)),
+      materialTextures(uploaded(gpu, "scene material textures", scene.textured.materials)),
+      textures(uploaded(gpu, "scene textures", scene.textured.textures)),
+      images(uploaded(gpu, "scene images", scene.textured.images)),
+      texels(uploaded(gpu, "scene texels", scene.textured.texels)),
+      coordinates(uploaded(gpu, "scene texture coordinates", scene.textured.coordinates)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})),
       overflows(uploaded(gpu, "scene media overflows", std::vector<uint>{0})) {
     if (!scene.skyTexels.empty()) {
@@ -56,6 +61,11 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .lightMedia = lightMedia,
               .touching = touching,
               .sky = sky,
+              .materialTextures = materialTextures,
+              .textures = textures,
+              .images = images,
+              .texels = texels,
+              .coordinates = coordinates,
               .missing = missing,
               .overflows = overflows,
               .lit = scene.lit,
@@ -66,6 +76,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .endlessCount = static_cast<uint>(std::ranges::count_if(scene.lights, isEndless)),
               .discCount = scene.discCount,
               .targetCount = static_cast<uint>(scene.targets.size()),
+              .coordinateSets = scene.textured.sets,
               .unit = static_cast<float>(scene.coordinates.unit)};
     address = Buffer<DeviceScene>(gpu, "scene", 1);
     setView(scene.view, settings.size);

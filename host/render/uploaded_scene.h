@@ -48,6 +48,11 @@ private:
     Buffer<SkyTexel> skyTexels;
     Buffer<float> skyRows;
     Buffer<Sky> sky;
+    Buffer<MaterialTextures> materialTextures;
+    Buffer<Texture> textures;
+    Buffer<TexelImage> images;
+    Buffer<uint> texels;
+    Buffer<TexturePlaces> coordinates;
     Buffer<uint> missing;
     Buffer<uint> overflows;
 };

@@ -63,7 +63,7 @@ GltfAccessor::GltfAccessor(GltfFile& file, const Reader& index, std::string_view
             .fail(place.at("componentType").describe(), "allowed of indices are 5121, 5123 and 5125");
     const Reader typeReader = place.at("type");
     if (typeReader.text() != type) typeReader.fail(typeReader.describe(), fmt::format("needed here is \"{}\"", type));
-    components = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4;
+    components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
     if (const auto fractions = place.find("normalized")) normalized = fractions->boolean();
     const Reader countReader = place.at("count");
     size = countReader.integer(1, NONE - 1);

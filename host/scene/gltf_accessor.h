@@ -7,7 +7,7 @@ namespace vkpm {
 
 class GltfAccessor {
 public:
-    /// `type` is "SCALAR", "VEC3" or "VEC4". Throws InputError unless all elements lie in their buffers.
+    /// `type` is "SCALAR", "VEC2", "VEC3" or "VEC4". Throws InputError unless all elements lie in their buffers.
     GltfAccessor(GltfFile& file, const Reader& index, std::string_view type);
 
     uint count() const { return size; }

@@ -32,7 +32,10 @@ public:
         auto transmissionOf = extension("KHR_materials_transmission"), iorOf = extension("KHR_materials_ior"),
              volume = extension("KHR_materials_volume");
         transmission = numberOr(transmissionOf, "transmissionFactor", 0, fraction);
-        ior = numberOr(iorOf, "ior", 1.5f, notNegative);
+        ior = numberOr(iorOf, "ior", 1.5f, {0, 1000});
+        auto specularOf = extension("KHR_materials_specular");
+        specular = numberOr(specularOf, "specularFactor", 1, fraction);
+        specularColor = colorOr(specularOf, "specularColorFactor", notNegative);
         thickness = numberOr(volume, "thicknessFactor", 0, notNegative);
         attenuates = thickness > 0 && colorOr(volume, "attenuationColor", fraction) != vec3{1};
         readSpecularGlossiness();
@@ -54,19 +57,15 @@ public:
     }
 
     json opaque() {
-        if (metallic < 0.5f) {
-            if (roughness < 1) lose("the gloss of a surface that is no metal is left out: it is diffuse");
-            return {{"type", "diffuse"}, {"albedo", listOf(base)}};
-        }
-        const bool isMirror = roughness <= 0.3f;
-        if (isMirror && roughness > 0) lose("a metal of roughness 0.3 or less is a mirror");
-        if (!isMirror && metallicIsGiven()) lose("a metal of a roughness above 0.3 is diffuse");
-        if (isMirror) return {{"type", "mirror"}, {"reflectance", listOf(base)}};
-        return {{"type", "diffuse"}, {"albedo", listOf(base)}};
+        json result{
+            {"type", "standard"}, {"baseColor", listOf(base)}, {"metallic", metallic}, {"roughness", roughness}};
+        if (ior != 1.5f) result["ior"] = ior;
+        if (specular != 1) result["specular"] = specular;
+        if (specularColor != vec3{1}) result["specularColor"] = listOf(specularColor);
+        return result;
     }
 
     json transparent(GltfGlass glass) {
-        if (roughness > 0) lose("the roughness of glass is left out: it is smooth");
         if (attenuates) lose("what glass absorbs on the way through is left out");
         const bool isThin = glass == GltfGlass::thin && thickness == 0;
         if (isThin) lose("thin glass lets light straight through, and reflects none");
@@ -75,7 +74,7 @@ public:
                  "\"import\" "
                  "takes it for panes");
         if (!(ior >= 1e-3f && ior <= 1e3f)) lose("an index of refraction beyond 0.001 to 1000 becomes 1.5"), ior = 1.5f;
-        return {{"type", "glass"}, {"ior", isThin ? 1.0f : ior}, {"tint", listOf(base)}};
+        return {{"type", "glass"}, {"ior", isThin ? 1.0f : ior}, {"tint", listOf(base)}, {"roughness", roughness}};
     }
 
     bool isTwoSided() {
@@ -89,14 +88,14 @@ private:
         return extensions ? extensions->find(name) : std::nullopt;
     }
     void lose(std::string_view what) { losses.add(material, what); }
-    bool metallicIsGiven() { return pbr && pbr->find("metallicFactor"); }
 
-    /// The model of before 2021: what it says of gloss is lost.
+    /// The model of before 2021. An index of 0 stands for a reflectance that its colour says alone (KHR_materials_ior).
     void readSpecularGlossiness() {
         auto older = extension("KHR_materials_pbrSpecularGlossiness");
         if (!older) return;
-        lose("of KHR_materials_pbrSpecularGlossiness only the diffuse colour is taken");
-        metallic = 0;
+        metallic = ior = 0;
+        roughness = 1 - numberOr(older, "glossinessFactor", 1, fraction);
+        specularColor = colorOr(older, "specularFactor", fraction);
         if (const auto color = older->find("diffuseFactor")) base = readBase(*color);
         if (older->find("diffuseTexture")) noteColorTexture();
     }
@@ -119,8 +118,8 @@ private:
         if (alpha && alpha->choice({"OPAQUE", "MASK", "BLEND"}) > 0)
             lose("opacity is left out: what is see-through there is opaque");
         if (transmission > 0 && transmission < 0.5f) lose("a transmission below 0.5 is left out");
-        for (const char* name : {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "iridescence",
-                                 "sheen", "specular", "unlit"})
+        for (const char* name :
+             {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "iridescence", "sheen", "unlit"})
             if (extension(fmt::format("KHR_materials_{}", name)))
                 lose(fmt::format("KHR_materials_{} is left out", name));
     }
@@ -129,7 +128,8 @@ private:
     Losses& losses;
     std::optional<Reader> extensions, pbr;
     vec3 base{1};
-    float metallic = 1, roughness = 1, transmission = 0, ior = 1.5f, thickness = 0;
+    vec3 specularColor{1};
+    float metallic = 1, roughness = 1, transmission = 0, ior = 1.5f, thickness = 0, specular = 1;
     bool attenuates = false;
 };
 
@@ -138,13 +138,11 @@ private:
 GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, Losses& losses) {
     GltfSurface surface(std::move(material), losses);
     GltfMaterial result{.radiance = surface.readEmission(), .twoSided = surface.isTwoSided()};
-    const bool emits = result.radiance != vec3{0}; // only diffuse shapes may
+    const bool emits = result.radiance != vec3{0}; // glass may not
     result.material = surface.isGlass() && !emits ? surface.transparent(glass) : surface.opaque();
-    if (emits && result.material["type"] == "mirror")
-        result.material = {{"type", "diffuse"}, {"albedo", result.material["reflectance"]}};
     return result;
 }
 
-GltfMaterial defaultGltfMaterial() { return {.material = {{"type", "diffuse"}, {"albedo", 1}}}; }
+GltfMaterial defaultGltfMaterial() { return {.material = {{"type", "standard"}}}; }
 
 } // namespace vkpm

@@ -38,6 +38,13 @@ public:
         if (normals && normals->count() != positions->count())
             normal->fail(fmt::format("found {} normals", normals->count()),
                          fmt::format("there are {} positions", positions->count()));
+        for (std::size_t set = 0; set < 2; ++set)
+            if (const auto places = attributes.find(fmt::format("TEXCOORD_{}", set))) {
+                coordinates[set].emplace(file, *places, "VEC2");
+                if (coordinates[set]->count() != positions->count())
+                    places->fail(fmt::format("found {} texture coordinates", coordinates[set]->count()),
+                                 fmt::format("there are {} positions", positions->count()));
+            }
         if (const auto indices = place.find("indices")) readIndices(*indices);
         else
             for (uint i = 0; i < positions->count(); ++i) corners.push_back(i);
@@ -78,6 +85,11 @@ private:
                 positions->place().fail(fmt::format("position {} is not finite, and a triangle uses it", i),
                                         "allowed are three finite numbers");
             mesh.vertices.emplace_back(point);
+            for (std::size_t set = 0; set < 2; ++set)
+                if (coordinates[set]) {
+                    const dvec4 at = coordinates[set]->at(i);
+                    mesh.coordinates[set].emplace_back(at.x, 1 - at.y); // glTF's go down
+                }
             if (!normals) continue;
             const dvec4 normal = normals->at(i);
             if (!isSound(normal))
@@ -98,7 +110,10 @@ private:
     }
 
     void addTriangle(std::size_t a, std::size_t b, std::size_t c) {
-        const auto corner = [&](std::size_t i) { return IndexedMesh::Corner{corners[i], normals ? corners[i] : NONE}; };
+        const auto corner = [&](std::size_t i) {
+            return IndexedMesh::Corner{corners[i], normals ? corners[i] : NONE,
+                                       coordinates[0] || coordinates[1] ? corners[i] : NONE};
+        };
         mesh.triangles.push_back({corner(a), corner(b), corner(c)});
     }
 
@@ -106,12 +121,20 @@ private:
     Reader place;
     Losses& losses;
     uint mode = TRIANGLES;
-    std::optional<GltfAccessor> positions, normals;
+    std::optional<GltfAccessor> positions, normals, coordinates[2];
     std::vector<uint> corners;
     IndexedMesh mesh;
 };
 
 void append(Mesh& all, const Mesh& part, const Transform& transform) {
+    for (std::size_t set = 0; set < 2; ++set) {
+        if (part.coordinates[set].empty()) continue;
+        all.coordinates[set].resize(all.triangles.size());
+        for (TexturePlaces c : part.coordinates[set]) {
+            if (transform.mirrors()) std::swap(c.b, c.c);
+            all.coordinates[set].push_back(c);
+        }
+    }
     for (Mesh::Triangle triangle : part.triangles) {
         for (dvec3& point : triangle.points) point = transform.point(point);
         if (triangle.normals)
@@ -122,6 +145,8 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
         }
         all.triangles.push_back(triangle);
     }
+    for (auto& set : all.coordinates)
+        if (!set.empty()) set.resize(all.triangles.size());
 }
 
 } // namespace

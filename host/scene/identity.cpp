@@ -49,6 +49,13 @@ std::string sceneHash(const Scene& scene) {
     } pinhole{v.origin, v.target, v.up, v.fieldOfView, v.coordinates};
     hash.addWords(pinhole);
     if (v.lens.aperture > 0) hash.addWords(v.lens);
+    if (!scene.textured.images.empty()) {
+        hash.add(scene.textured.materials);
+        hash.add(scene.textured.textures);
+        hash.add(scene.textured.images);
+        hash.add(scene.textured.texels);
+        hash.add(scene.textured.coordinates);
+    }
     return hash.text();
 }
 

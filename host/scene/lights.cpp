@@ -75,7 +75,8 @@ template <class Counts> static Target sphereOf(const Scene& scene, double wide, 
 
 Target sphereOfLit(const Scene& scene) {
     return sphereOf(scene, 1.000002, [&](const Primitive& p) {
-        return p.light == NONE || scene.materials[p.material].color != vec3{0};
+        return p.light == NONE || scene.materials[p.material].kind != MATERIAL_DIFFUSE ||
+               scene.materials[p.material].color != vec3{0};
     });
 }
 

@@ -107,11 +107,11 @@ void readSettings(Reader reader, Settings& settings) {
 static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSITY_KERNEL_GAUSS == 2 &&
               DENSITY_KERNEL_EPANECHNIKOV == 3);
 
-std::map<std::string, uint> readMaterials(Reader reader, Scene& scene) {
+std::map<std::string, uint> readMaterials(Reader reader, Scene& scene, Textures& textures) {
     std::map<std::string, uint> indices;
     for (const std::string& name : reader.keys()) {
         indices[name] = static_cast<uint>(scene.materials.size());
-        scene.materials.push_back(readMaterial(reader.at(name), scene));
+        scene.materials.push_back(readMaterial(reader.at(name), textures));
     }
     return indices;
 }
@@ -140,15 +140,16 @@ Reader importedCamera(Import& import, std::optional<Reader> film, Settings& sett
 }
 
 /// What a part of an import is made of: a material of the scene by the same name, or that of the file.
-ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, Scene& scene,
+ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, Scene& scene, Textures& textures,
                                      const std::map<std::string, uint>& ofScene) {
     const GltfMaterial imported = import.material(part.material);
     const auto own = ofScene.find(import.materialName(part.material));
     ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
                                  imported.radiance, imported.twoSided};
     if (own == ofScene.end()) {
-        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, scene));
-    } else if (surface.radiance != vec3{0} && scene.materials[surface.material].kind != MATERIAL_DIFFUSE) {
+        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, textures));
+    } else if (const Material& its = scene.materials[surface.material];
+               surface.radiance != vec3{0} && (!mayEmit(its) || its.seeThrough > 0)) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
     }
@@ -156,14 +157,15 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
 }
 
 /// Adds what an import has. Materials of the scene go before its own, whose names shapes of the scene may use.
-void addImport(Import& import, Scene& scene, std::map<std::string, uint>& indices, ShapeLoader& loader) {
+void addImport(Import& import, Scene& scene, Textures& textures, std::map<std::string, uint>& indices,
+               ShapeLoader& loader) {
     const std::map<std::string, uint> ofScene = indices;
     std::map<uint, ShapeLoader::Surface> surfaces;
     for (const ImportedInstance& instance : import.instances())
         for (std::size_t i = instance.firstPart; i < instance.endPart; ++i) {
             const ImportedPart& part = import.parts()[i];
             if (!surfaces.contains(part.material)) {
-                surfaces[part.material] = importedSurface(import, part, scene, ofScene);
+                surfaces[part.material] = importedSurface(import, part, scene, textures, ofScene);
                 indices.try_emplace(import.materialName(part.material), surfaces[part.material].material);
             }
             if (loader.add(part.place, part.mesh, instance.transform, surfaces[part.material]) > 0)
@@ -191,7 +193,8 @@ void readScene(Reader root, Scene& scene) {
     if (film) readFilm(*film, scene.settings);
     if (settings) readSettings(*settings, scene.settings);
     std::map<std::string, uint> indices;
-    if (materials) indices = readMaterials(*materials, scene);
+    Textures textures{scene};
+    if (materials) indices = readMaterials(*materials, scene, textures);
 
     if (environment) readEnvironment(*environment, scene);
     if (environment && scene.sky.visible == 0) {
@@ -213,7 +216,7 @@ void readScene(Reader root, Scene& scene) {
         for (const dvec3& place : loader.somePlaces(shapes->element(i))) places.push_back(place);
     scene.coordinates = chooseCoordinates(places);
     scene.view = readView(*camera, scene.coordinates);
-    if (import) addImport(*import, scene, indices, loader);
+    if (import) addImport(*import, scene, textures, indices, loader);
     for (std::size_t i = 0; i < count; ++i) loader.add(shapes->element(i));
     if (lights) addLamps(*lights, scene, loader);
     if (import && scene.lights.empty()) {

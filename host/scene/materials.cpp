@@ -1,90 +1,63 @@
 /// Materials of a scene file.
 #include "scene/materials.h"
-#include "scene/media.h"
+#include "scene/glass_material.h"
 #include "scene/rest.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <optional>
+#include <tbb/parallel_for.h>
 
 namespace vkpm {
 namespace {
 
-/// Index inside over index outside.
-float readIor(Reader& glass) {
-    const Reader iorReader = glass.at("ior");
-    const float inside = iorReader.number(positive);
-    const auto exterior = glass.find("exteriorIor");
-    const float ratio = inside / (exterior ? exterior->number(positive) : 1.0f);
-    if (!(ratio >= 1e-3f && ratio <= 1e3f))
-        iorReader.fail(fmt::format("found {} times the index outside", ratio), "allowed is a ratio from 0.001 to 1000");
-    return ratio;
+/// Rows of the roughnesses of a texture, by those of one alpha.
+template <class Rows> std::vector<float> rowsOfTexture(Rows rowsOf) {
+    std::vector<std::vector<float>> all(ROUGHNESS_STEPS + 1);
+    tbb::parallel_for(0u, ROUGHNESS_STEPS + 1, [&](uint i) {
+        const double r = double(i) / ROUGHNESS_STEPS;
+        all[i] = rowsOf(std::max(r * r, double{LEAST_ALPHA}));
+    });
+    std::vector<float> rows;
+    for (const std::vector<float>& some : all) rows.insert(rows.end(), some.begin(), some.end());
+    return rows;
 }
 
-Material readDiffuse(Reader& reader, Scene&) { return {MATERIAL_DIFFUSE, reader.at("albedo").color(fraction), 1}; }
-
-Material readMirror(Reader& reader, Scene&) { return {MATERIAL_MIRROR, reader.at("reflectance").color(fraction), 1}; }
-
-float readAlpha(Reader& reader, float otherwise) {
-    const auto roughness = reader.find("roughness");
-    const float r = roughness ? roughness->number(fraction) : otherwise;
-    return r * r;
+/// Gives a lobe its width and what it leaves to a diffuse one, `rowsOf` its alpha, where roughness may be a texture.
+template <class Rows>
+void setRoughness(Material& material, float roughness, bool textured, Textures& textures, Rows rowsOf) {
+    material.alpha = std::max(LEAST_ALPHA, roughness * roughness);
+    material.rest = placeRows(textures.scene.rests, textured ? rowsOfTexture(rowsOf) : rowsOf(double{material.alpha}));
 }
 
-/// The row of a lobe, which is added if there is none like it.
-uint rowOf(std::vector<float>& rests, float alpha, double normalIncidence) {
-    const std::vector<float> row = restRow(double{alpha}, normalIncidence);
-    for (std::size_t i = 0; i < rests.size(); i += REST_ROW)
-        if (std::equal(row.begin(), row.end(), rests.begin() + std::ptrdiff_t(i))) return uint(i / REST_ROW);
-    rests.insert(rests.end(), row.begin(), row.end());
-    return uint(rests.size() / REST_ROW) - 1;
-}
-
-/// What light loses on its way (Beer's law), as powers of two over the unit of length of the scene file.
-vec3 readAttenuation(Reader reader) {
-    const vec3 color = reader.at("color").color(fraction);
-    const double distance{reader.at("distance").number(positive)};
-    reader.finish();
-    vec3 powers{0};
-    for (int i = 0; i < 3; ++i)
-        powers[i] = static_cast<float>(
-            std::min(-std::log2(double{color[i]}) / distance, double{std::numeric_limits<float>::max()}));
-    return glm::max(powers, vec3{0});
-}
-
-/// What is added to an index for red and for blue, by Abbe's number: they differ by (index - 1) / number.
-vec2 readSpread(const Reader& abbe, float ior) {
-    const float half = (ior - 1) / (2 * abbe.number({1, std::numeric_limits<float>::max()}));
-    return {-half, half};
-}
-
-void refuseInside(Reader& glass) {
-    for (const char* key : {"attenuation", "abbe", "priority"})
-        if (const auto reader = glass.find(key))
-            reader->fail("found beside \"thin\"", "allowed is glass with an inside: leave out one of them");
-}
-
-/// Glass without a difference of indices has no rough surface either.
-Material readGlass(Reader& reader, Scene& scene) {
-    Material material{MATERIAL_GLASS, vec3{1}, readIor(reader)};
-    if (const auto tint = reader.find("tint")) material.color = tint->color(fraction);
-    material.alpha = readAlpha(reader, 0);
-    material.rest = NONE;
-    const auto thin = reader.find("thin");
-    const bool isThin = thin && thin->boolean(), isRough = material.alpha >= smoothestAlpha;
-    if (isThin) refuseInside(reader);
-    if (isThin) material.kind = isRough ? MATERIAL_ROUGH_THIN_GLASS : MATERIAL_THIN_GLASS;
-    else if (isRough && std::abs(material.ior - 1) >= 1e-4f) material.kind = MATERIAL_ROUGH_GLASS;
-    if (isThin) return material;
-
-    Medium medium{vec3{0}, reader.at("ior").number(positive)};
-    if (const auto attenuation = reader.find("attenuation")) medium.attenuation = readAttenuation(*attenuation);
-    if (const auto abbe = reader.find("abbe")) medium.spread = readSpread(*abbe, medium.ior);
-    if (const auto priority = reader.find("priority")) medium.priority = priority->integer(0, maxPriority);
-    const auto exterior = reader.find("exteriorIor");
-    fillGlass(scene, material, medium, exterior ? exterior->number(positive) : 1.0f);
+Material readDiffuse(Reader& reader, Textures& textures, MaterialTextures& slots) {
+    Material material{MATERIAL_DIFFUSE, textures.color(reader.at("albedo"), fraction, slots.color), 1};
     return material;
+}
+
+Material readMirror(Reader& reader, Textures&, MaterialTextures&) {
+    return {MATERIAL_MIRROR, reader.at("reflectance").color(fraction), 1};
+}
+
+float numberOr(Reader& reader, std::string_view key, float otherwise, Range range) {
+    const auto number = reader.find(key);
+    return number ? number->number(range) : otherwise;
+}
+
+/// A roughness, or the greatest of its texture.
+float readRoughness(Reader& reader, float otherwise, Textures& textures, uint& slot, uint channel = 0) {
+    const auto roughness = reader.find("roughness");
+    return roughness ? textures.number(*roughness, fraction, slot, channel) : otherwise;
+}
+
+Material readGlass(Reader& reader, Textures& textures, MaterialTextures& slots) {
+    const Reader iorReader = reader.at("ior");
+    const float ior = iorReader.number(positive), exterior = numberOr(reader, "exteriorIor", 1, positive);
+    if (const float ratio = ior / exterior; !(ratio >= 1e-3f && ratio <= 1e3f))
+        iorReader.fail(fmt::format("found {} times the index outside", ratio), "allowed is a ratio from 0.001 to 1000");
+    const auto tint = reader.find("tint");
+    return readGlass(reader, textures.scene, tint ? tint->color(fraction) : vec3{1}, ior, exterior,
+                     readRoughness(reader, 0, textures, slots.roughness));
 }
 
 struct Metal {
@@ -96,51 +69,100 @@ const std::vector<Metal> metals{{"gold", {1.000f, 0.766f, 0.336f}},   {"silver",
                                 {"copper", {0.955f, 0.637f, 0.538f}}, {"aluminium", {0.913f, 0.921f, 0.925f}},
                                 {"iron", {0.560f, 0.570f, 0.580f}},   {"chromium", {0.549f, 0.556f, 0.554f}}};
 
-vec3 readReflectance(Reader& reader) {
+vec3 readReflectance(Reader& reader, Textures& textures, uint& slot) {
     const auto preset = reader.find("preset");
     const auto reflectance = reader.find("reflectance");
     if (preset && reflectance) preset->fail("found both \"preset\" and \"reflectance\"", "give one of them");
-    if (!preset) return (reflectance ? *reflectance : reader.at("reflectance")).color(fraction);
+    if (!preset) return textures.color(reflectance ? *reflectance : reader.at("reflectance"), fraction, slot);
     std::vector<std::string_view> names;
     for (const Metal& metal : metals) names.push_back(metal.name);
     return metals[preset->choice(names)].reflectance;
 }
 
-Material readMetal(Reader& reader, Scene& scene) {
-    const vec3 reflectance = readReflectance(reader);
-    const float alpha = readAlpha(reader, 0);
+Material readMetal(Reader& reader, Textures& textures, MaterialTextures& slots) {
+    const vec3 reflectance = readReflectance(reader, textures, slots.color);
+    const float roughness = readRoughness(reader, 0, textures, slots.roughness);
     const auto multiscatter = reader.find("multiscatter");
     const bool scattersMore = !multiscatter || multiscatter->boolean();
-    if (alpha < smoothestAlpha) return {MATERIAL_POLISHED, reflectance, 1};
-    return {MATERIAL_METAL, reflectance, 1, 0, alpha, scattersMore ? rowOf(scene.rests, alpha, 1) : NONE};
+    const bool polished = roughness * roughness < LEAST_ALPHA;
+    if (polished) slots.roughness = NONE;
+    Material material{polished ? MATERIAL_POLISHED : MATERIAL_METAL, reflectance, 1};
+    if (polished) return material;
+    setRoughness(material, roughness, slots.roughness != NONE, textures,
+                 [](double alpha) { return restRow(alpha, 1); });
+    if (!scattersMore) material.rest = NONE;
+    return material;
 }
 
-Material readPlastic(Reader& reader, Scene& scene) {
-    const vec3 albedo = reader.at("albedo").color(fraction);
+Material readPlastic(Reader& reader, Textures& textures, MaterialTextures& slots) {
+    const vec3 albedo = textures.color(reader.at("albedo"), fraction, slots.color);
     const auto ior = reader.find("ior");
-    const float index = ior ? ior->number({1, 1000}) : 1.5f, alpha = std::max(smoothestAlpha, readAlpha(reader, 0.3f));
+    const float index = ior ? ior->number({1, 1000}) : 1.5f,
+                roughness = readRoughness(reader, 0.3f, textures, slots.roughness);
     const double r = (double{index} - 1) / (double{index} + 1);
-    return {MATERIAL_PLASTIC, albedo, index, 0, alpha, rowOf(scene.rests, alpha, r * r)};
+    Material material{MATERIAL_PLASTIC, albedo, index};
+    setRoughness(material, roughness, slots.roughness != NONE, textures,
+                 [r](double alpha) { return restRow(alpha, r * r); });
+    return material;
+}
+
+/// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission. As in glTF,
+/// metal is in the blue of a texture, roughness in the green.
+Material readStandard(Reader& reader, Textures& textures, MaterialTextures& slots) {
+    const auto color = reader.find("baseColor"), specularColor = reader.find("specularColor"),
+               transmissionReader = reader.find("transmission"), metallicReader = reader.find("metallic");
+    Material material{MATERIAL_STANDARD, color ? textures.color(*color, fraction, slots.color) : vec3{1}};
+    material.metallic = metallicReader ? textures.number(*metallicReader, fraction, slots.metallic, 2) : 1;
+    const float roughness = readRoughness(reader, 1, textures, slots.roughness, 1);
+    material.ior = numberOr(reader, "ior", 1.5f, {0, 1000});
+    material.grazing = numberOr(reader, "specular", 1, fraction);
+    const float r = (material.ior - 1) / (material.ior + 1);
+    const vec3 specular = specularColor ? specularColor->color(notNegative) : vec3{1};
+    material.normalIncidence = glm::min(r * r * specular, vec3{1}) * material.grazing;
+
+    const float transmission = transmissionReader ? transmissionReader->number(fraction) : 0;
+    if (transmission > 0 && (transmission < 1 || material.metallic > 0))
+        transmissionReader->fail(
+            fmt::format("found {} of a material whose \"metallic\" is {}", transmission, material.metallic),
+            "allowed is 0, or 1 where \"metallic\" is 0");
+    if (transmission > 0)
+        material = readGlass(reader, textures.scene, material.color, std::max(material.ior, 1e-3f), 1, roughness);
+    else if (material.grazing == 0 && material.metallic == 0) material = {MATERIAL_DIFFUSE, material.color, 1};
+    else setRoughness(material, roughness, slots.roughness != NONE, textures, standardRows);
+    return material;
+}
+
+/// The part of what meets a surface that it stops. What nothing goes through is opaque.
+void readOpacity(Reader& reader, Material& material, Textures& textures, MaterialTextures& slots) {
+    const auto opacity = reader.find("opacity"), cutoff = reader.find("cutoff");
+    if (cutoff && !opacity) cutoff->fail("found a \"cutoff\" without \"opacity\"", "give both, or none");
+    if (!opacity) return;
+    const float greatest = textures.number(*opacity, fraction, slots.opacity);
+    if (cutoff) material.cutoff = cutoff->number(fraction);
+    const bool always = cutoff && material.cutoff == 0;
+    if (always) slots.opacity = NONE;
+    material.seeThrough = always ? 0 : slots.opacity != NONE ? 1 : 1 - greatest;
 }
 
 struct MaterialType {
     std::string_view name;
-    Material (*read)(Reader&, Scene& scene);
+    Material (*read)(Reader&, Textures& textures, MaterialTextures& slots);
 };
 
 /// What "type" may be.
-const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse},
-                                              {"mirror", readMirror},
-                                              {"glass", readGlass},
-                                              {"metal", readMetal},
-                                              {"plastic", readPlastic}};
+const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse}, {"mirror", readMirror},
+                                              {"glass", readGlass},     {"metal", readMetal},
+                                              {"plastic", readPlastic}, {"standard", readStandard}};
 
 } // namespace
 
-Material readMaterial(Reader reader, Scene& scene) {
+Material readMaterial(Reader reader, Textures& textures) {
     std::vector<std::string_view> names;
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
-    const Material material = materialTypes[reader.at("type").choice(names)].read(reader, scene);
+    MaterialTextures slots{NONE, NONE, NONE, NONE};
+    Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures, slots);
+    readOpacity(reader, material, textures, slots);
+    material.textures = textures.place(slots);
     reader.finish();
     return material;
 }

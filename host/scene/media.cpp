@@ -2,7 +2,6 @@
 #include "scene/media.h"
 #include "scene/glass.h"
 #include "scene/lights.h"
-#include "scene/materials.h"
 #include "scene/text.h"
 #include "scene/touching.h"
 #include <algorithm>
@@ -123,7 +122,7 @@ void findMedia(Scene& scene, const std::filesystem::path& file) {
         medium.attenuation = glm::min(medium.attenuation * static_cast<float>(scene.coordinates.unit),
                                       vec3{std::numeric_limits<float>::max()});
     for (Material& material : scene.materials)
-        if (material.kind == MATERIAL_GLASS && material.alpha >= smoothestAlpha) material.kind = MATERIAL_ROUGH_GLASS;
+        if (material.kind == MATERIAL_GLASS && material.alpha >= LEAST_ALPHA) material.kind = MATERIAL_ROUGH_GLASS;
     const MediaLocator locator{scene};
     for (const Light& light : scene.lights)
         scene.lightMedia.push_back(isEndless(light) ? 0 : locator.at(pointOf(light)));

@@ -5,6 +5,7 @@
 #include "scene/ply.h"
 #include "scene/reader.h"
 #include "scene/text.h"
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -99,10 +100,8 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
     Mesh mesh{.files = {file}};
     if (from.skippedFaces > 0)
         mesh.warnings.push_back(fmt::format("{} faces have fewer than 3 corners and were left out", from.skippedFaces));
-    if (from.materials.size() > 1)
-        mesh.warnings.push_back(fmt::format("its faces use {} materials (usemtl {}), all get the material of the "
-                                            "shape; for others cut the file into one for each",
-                                            from.materials.size(), quotedList(from.materials)));
+    mesh.materials = from.materialOfTriangle;
+    mesh.materialNames = from.materials;
     for (const std::string& what : from.leftOut) mesh.warnings.push_back(what + " are left out");
     mesh.triangles.reserve(from.triangles.size());
     for (const Corners& corners : from.triangles) {
@@ -110,6 +109,17 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
         if (smoothness != Smoothness::flat) triangle.normals = normalsOf(file, from, corners, computed);
         mesh.triangles.push_back(triangle);
     }
+    const auto isPlaced = [](const IndexedMesh::Corner& corner) { return corner.coordinates != NONE; };
+    const bool placed = std::ranges::any_of(
+        from.triangles, [&](const Corners& corners) { return std::ranges::any_of(corners, isPlaced); });
+    for (std::size_t set = 0; set < 2; ++set)
+        if (placed && !from.coordinates[set].empty())
+            for (const Corners& corners : from.triangles) {
+                const auto at = [&](const IndexedMesh::Corner& corner) {
+                    return corner.coordinates == NONE ? vec2{0} : from.coordinates[set][corner.coordinates];
+                };
+                mesh.coordinates[set].push_back({at(corners[0]), at(corners[1]), at(corners[2])});
+            }
     return mesh;
 }
 

@@ -1,6 +1,7 @@
 /// Triangle meshes read from OBJ, PLY and glTF files.
 #pragma once
 #include "scene/indexed_mesh.h"
+#include "shared_textures.h"
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -19,6 +20,9 @@ struct Mesh {
         std::optional<std::array<vec3, 3>> normals; // not of unit length
     };
     std::vector<Triangle> triangles;
+    std::vector<TexturePlaces> coordinates[2]; // sets of these, of all triangles each, or empty
+    std::vector<uint> materials;               // of all triangles: index into `materialNames`; or empty
+    std::vector<std::string> materialNames;
     std::vector<std::string> warnings;
     std::vector<std::filesystem::path> files; // that were read
 };

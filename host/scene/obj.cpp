@@ -78,6 +78,7 @@ private:
     struct Face {
         std::size_t end;
         std::size_t line;
+        uint material;
     };
 
     [[noreturn]] void fail(std::size_t where, std::string_view found, std::string_view allowed) const {
@@ -87,14 +88,16 @@ private:
     void readLine(std::string_view rest) {
         const std::string_view keyword = takeWord(rest);
         if (keyword == "v") {
-            obj.vertices.push_back(readNumbers(rest));
+            obj.vertices.push_back(readNumbers(rest, 3));
             if (!isFinite(obj.vertices.back()))
                 unsound[obj.vertices.size() - 1] = {
                     line, std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())).substr(0, 60))};
         } else if (keyword == "vn") {
-            obj.normals.push_back(vec3{readNumbers(rest)});
+            obj.normals.push_back(vec3{readNumbers(rest, 3)});
             if (!isFinite(glm::dvec3{obj.normals.back()}))
                 obj.wrongNormals[obj.normals.size() - 1] = fmt::format(":{}", line);
+        } else if (keyword == "vt") {
+            obj.coordinates[0].emplace_back(readNumbers(rest, 1));
         } else if (keyword == "usemtl") {
             const std::string_view name = rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size()));
             material = name.substr(0, name.find_last_not_of(" \t") + 1);
@@ -106,11 +109,13 @@ private:
 
     static bool isFinite(glm::dvec3 v) { return std::isfinite(v.x + v.y + v.z); }
 
-    /// Three numbers; those beyond the range of float are infinite.
-    glm::dvec3 readNumbers(std::string_view rest) const {
-        glm::dvec3 numbers;
+    /// Three numbers, of which those after the first `needed` may be absent; those beyond the range of float are
+    /// infinite.
+    glm::dvec3 readNumbers(std::string_view rest, int needed) const {
+        glm::dvec3 numbers{0};
         for (int i = 0; i < 3; ++i) {
             std::string_view word = takeWord(rest);
+            if (word.empty() && i >= needed) break;
             const std::string_view found = word;
             if (word.starts_with('+')) word.remove_prefix(1);
             double value = 0;
@@ -136,10 +141,12 @@ private:
         for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
             const std::string_view whole = word;
             const uint vertex = readIndex(takeIndex(word), whole, obj.vertices.size());
-            takeIndex(word); // of texture coordinates, which are not used
-            const std::string_view normal = takeIndex(word);
+            const std::string_view place = takeIndex(word), normal = takeIndex(word);
+            const auto optional = [&](std::string_view index, std::size_t count) {
+                return index.empty() || index == "0" ? NONE : readIndex(index, whole, count);
+            };
             corners.push_back(
-                {vertex, normal.empty() || normal == "0" ? NONE : readIndex(normal, whole, obj.normals.size())});
+                {vertex, optional(normal, obj.normals.size()), optional(place, obj.coordinates[0].size())});
         }
         const std::size_t count = corners.size() - first;
         if (count < 3) {
@@ -150,9 +157,12 @@ private:
         if (count > maxCorners)
             fail(line, fmt::format("a face of {} corners", count),
                  fmt::format("allowed are {}; cut it into several", maxCorners));
-        faces.push_back({corners.size(), line});
-        if (std::exchange(materialIsNew, false) && std::ranges::find(obj.materials, material) == obj.materials.end())
-            obj.materials.push_back(material);
+        if (std::exchange(materialIsNew, false)) {
+            const auto known = std::ranges::find(obj.materials, material);
+            currentMaterial = static_cast<uint>(known - obj.materials.begin());
+            if (known == obj.materials.end()) obj.materials.push_back(material);
+        }
+        faces.push_back({corners.size(), line, currentMaterial});
     }
 
     uint readIndex(std::string_view digits, std::string_view corner, std::size_t count) const {
@@ -174,9 +184,14 @@ private:
             requireIndex(corner.vertex, obj.vertices.size(), "vertex", face);
             if (!isFinite(obj.vertices[corner.vertex])) refuseVertex(corner.vertex);
             if (corner.normal != NONE) requireIndex(corner.normal, obj.normals.size(), "normal", face);
+            if (corner.coordinates != NONE)
+                requireIndex(corner.coordinates, obj.coordinates[0].size(), "texture coordinates", face);
             points.push_back(obj.vertices[corner.vertex]);
         }
-        for (const auto& [a, b, c] : triangulate(points)) obj.triangles.push_back({polygon[a], polygon[b], polygon[c]});
+        for (const auto& [a, b, c] : triangulate(points)) {
+            obj.triangles.push_back({polygon[a], polygon[b], polygon[c]});
+            if (!obj.materials.empty()) obj.materialOfTriangle.push_back(face.material);
+        }
     }
 
     void requireIndex(uint index, std::size_t count, std::string_view kind, const Face& face) const {
@@ -195,7 +210,8 @@ private:
     std::size_t line = 0;
     std::string joined; // of continued lines
     std::string material;
-    bool materialIsNew = false;                                         // no face has it yet
+    bool materialIsNew = false; // no face has it yet
+    uint currentMaterial = NONE;
     std::map<std::size_t, std::pair<std::size_t, std::string>> unsound; // vertices that are not finite: line and text
     IndexedMesh obj;
     std::vector<IndexedMesh::Corner> corners; // of all faces

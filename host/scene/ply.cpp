@@ -92,6 +92,10 @@ private:
         const std::array points{scalar(element, "x"), scalar(element, "y"), scalar(element, "z")};
         const std::array normals{element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
         const bool hasNormals = std::ranges::find(normals, NONE) == normals.end();
+        const std::array places{element.find({"s", "u", "texture_u", "texture_s"}),
+                                element.find({"t", "v", "texture_v", "texture_t"})};
+        const auto isNumber = [&](uint i) { return i != NONE && !element.properties[i].countType; };
+        const bool hasCoordinates = isNumber(places[0]) && isNumber(places[1]);
         if (element.find({"red", "r", "diffuse_red"}) != NONE) mesh.leftOut.emplace_back("the colours of its vertices");
         mesh.vertices.reserve(element.count);
         if (hasNormals) mesh.normals.reserve(element.count);
@@ -103,6 +107,7 @@ private:
                 else row[k] = inRange(values->number(element.properties[k].type));
             mesh.vertices.emplace_back(row[points[0]], row[points[1]], row[points[2]]);
             if (!allFinite(mesh.vertices.back())) wrongVertices[i] = mark;
+            if (hasCoordinates) mesh.coordinates[0].emplace_back(row[places[0]], row[places[1]]);
             if (!hasNormals) continue;
             mesh.normals.emplace_back(row[normals[0]], row[normals[1]], row[normals[2]]);
             if (!allFinite(mesh.normals.back())) mesh.wrongNormals[i] = Values::placeOf(mark);
@@ -167,7 +172,8 @@ private:
 
     void addTriangle(uint a, uint b, uint c) {
         const auto corner = [&](uint i) {
-            return IndexedMesh::Corner{polygon[i], mesh.normals.empty() ? NONE : polygon[i]};
+            return IndexedMesh::Corner{polygon[i], mesh.normals.empty() ? NONE : polygon[i],
+                                       mesh.coordinates[0].empty() ? NONE : polygon[i]};
         };
         mesh.triangles.push_back({corner(a), corner(b), corner(c)});
     }

@@ -58,6 +58,7 @@ public:
     std::size_t choice(const std::vector<std::string_view>& names) const; // index of the name found
     bool isNumber() const { return value->is_number(); }
     bool isText() const { return value->is_string(); }
+    bool isObject() const { return value->is_object(); }
 
     std::string describe() const; // the value found, in words
     const std::filesystem::path& path() const { return *file; }

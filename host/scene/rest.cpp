@@ -61,4 +61,18 @@ std::vector<float> restRow(double alpha, double normalIncidence) {
     return row;
 }
 
+uint placeRows(std::vector<float>& rests, const std::vector<float>& rows) {
+    for (std::size_t i = 0; i + rows.size() <= rests.size(); i += REST_ROW)
+        if (std::equal(rows.begin(), rows.end(), rests.begin() + std::ptrdiff_t(i))) return uint(i / REST_ROW);
+    rests.insert(rests.end(), rows.begin(), rows.end());
+    return uint((rests.size() - rows.size()) / REST_ROW);
+}
+
+std::vector<float> standardRows(double alpha) {
+    std::vector<float> rows = restRow(alpha, 0);
+    const std::vector<float> metal = restRow(alpha, 1);
+    rows.insert(rows.end(), metal.begin(), metal.end());
+    return rows;
+}
+
 } // namespace vkpm

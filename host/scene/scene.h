@@ -44,6 +44,16 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+/// Textures, see shared_textures.h; all are empty where nothing has one.
+struct TextureArrays {
+    std::vector<MaterialTextures> materials;
+    std::vector<Texture> textures;
+    std::vector<TexelImage> images;
+    std::vector<uint> texels;
+    std::vector<TexturePlaces> coordinates; // of all triangles, one set after the other
+    uint sets = 0;
+};
+
 struct Scene {
     Coordinates coordinates{};                     // of all places and lengths here and on the device
     std::string name;                              // the file's name without folder and extension
@@ -60,6 +70,7 @@ struct Scene {
     std::vector<uint> lightMedia; // likewise
     std::vector<uint> touching;   // likewise
     std::vector<GlassShape> glass;
+    TextureArrays textured;
     std::vector<Light> lights;       // endlessly far ones first
     Sky sky{};                       // but for its addresses
     std::vector<SkyTexel> skyTexels; // none: there is no sky

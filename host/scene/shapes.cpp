@@ -15,14 +15,26 @@ namespace {
 
 constexpr std::size_t maxPrimitives = LEAF_FIRST; // indices of leaves have that many bits
 
+bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Of light from all directions, the part that a lobe over a diffuse one reflects; 1 of what has no such coat.
+float reflectedByCoat(const Material& material, const std::vector<float>& rests) {
+    const auto mean = [&](uint row) { return rests[row * REST_ROW + REST_MEAN]; };
+    if (material.kind == MATERIAL_PLASTIC) return 1 - mean(material.rest);
+    if (material.kind != MATERIAL_STANDARD) return 1;
+    const float none = mean(material.rest), all = mean(material.rest + 1), grazing = material.grazing,
+                f = std::max({material.normalIncidence.x, material.normalIncidence.y, material.normalIncidence.z}),
+                coat = grazing * (1 - none) + f * (none - all);
+    return std::max(material.metallic + (1 - material.metallic) * coat, 1e-3f);
+}
+
+} // namespace
+
 Transform readTransform(Reader& shape) {
     const auto steps = shape.find("transform");
     return steps ? Transform{*steps} : Transform{};
 }
 
-bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-/// Area of the parallelogram of two edges; 0 if it is so thin or small that its normal would drown in rounding.
 double soundArea(vec3 u, vec3 v) {
     const double area = glm::length(glm::cross(dvec3{u}, dvec3{v}));
     const double longest = std::max({glm::length(dvec3{u}), glm::length(dvec3{v}), glm::length(dvec3{v} - dvec3{u})});
@@ -30,15 +42,9 @@ double soundArea(vec3 u, vec3 v) {
     return sound ? area : 0;
 }
 
-/// The normal of unit length, or the triangle's own where there is none.
-vec3 unitNormal(dvec3 normal, const Primitive& triangle) {
-    const double length = glm::length(normal);
-    if (length > 0 && std::isfinite(length)) return vec3{normal / length};
-    const dvec3 a{triangle.a};
-    return vec3{glm::normalize(glm::cross(dvec3{triangle.b} - a, dvec3{triangle.c} - a))};
+bool mayEmit(const Material& material) {
+    return material.kind == MATERIAL_DIFFUSE || material.kind == MATERIAL_STANDARD;
 }
-
-} // namespace
 
 std::vector<dvec3> ShapeLoader::somePlaces(Reader shape) try {
     const Transform transform = readTransform(shape);
@@ -73,6 +79,14 @@ void ShapeLoader::add(Reader shape) {
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
     scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
+    for (const Texture& texture : scene.textured.textures)
+        scene.textured.sets = std::max(scene.textured.sets, texture.set + 1);
+    if (coordinates[0].empty()) scene.textured.sets = 0;
+    for (uint set = 0; set < scene.textured.sets; set++) {
+        coordinates[set].resize(scene.triangleCount);
+        scene.textured.coordinates.insert(scene.textured.coordinates.end(), coordinates[set].begin(),
+                                          coordinates[set].end());
+    }
     const auto warn = [&](Reader& shape, const std::string& wrong) {
         const auto name = shape.find("name");
         shape.warn(scene.warnings, name ? fmt::format("\"{}\": {}", printable(name->text(), 60), wrong) : wrong);
@@ -93,33 +107,38 @@ void ShapeLoader::noteGlass(const Reader& shape, const Surface& surface, std::si
     if (isGlass(scene.materials[surface.material])) glass.push_back({shape, {first, scene.primitives.size()}});
 }
 
-ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape) {
+ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape, bool mayLackMaterial) {
     Surface surface;
-    const auto emission = shape.find("emission");
+    const auto emission = shape.find("emission"), material = shape.find("material");
     if (emission) surface.radiance = emission->color(notNegative);
     if (const auto twoSided = shape.find("twoSided")) surface.twoSided = twoSided->boolean();
     if (const auto name = shape.find("name")) (void)name->text();
 
-    surface.material = readMaterial(shape, emission.has_value());
-    if (isSpecular(surface) && surface.radiance != vec3{0})
-        emission->fail("found emission on a material that is not diffuse", "only diffuse shapes may emit");
+    if (material) surface.material = materialNamed(*material);
+    else if (emission) surface.material = blackMaterial();
+    else if (mayLackMaterial) surface.material = NONE;
+    else (void)shape.at("material"); // which is missing
+    if (emission && surface.material != NONE) requireEmitter(*emission, surface);
     return surface;
 }
 
-uint ShapeLoader::readMaterial(Reader& shape, bool emits) {
-    const auto reader = shape.find("material");
-    if (!reader && emits) return blackMaterial();
-    const std::string name = reader ? reader->text() : shape.at("material").text();
+void ShapeLoader::requireEmitter(const Reader& place, const Surface& surface) const {
+    if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material]))
+        place.fail("found emission on a material that is not diffuse", "only diffuse and standard shapes may emit");
+    if (surface.radiance != vec3{0} && scene.materials[surface.material].seeThrough > 0)
+        place.fail("found emission on a material that is not opaque", "only opaque shapes may emit");
+}
 
+uint ShapeLoader::materialNamed(const Reader& reader) const {
+    const std::string name = reader.text();
     const auto found = materials.find(name);
     if (found != materials.end()) return found->second;
     std::vector<std::string> names;
     for (const auto& [known, index] : materials) names.push_back(known);
     const std::string nearest = nearestWord(name, names);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest);
-    reader->fail(fmt::format("unknown material \"{}\"", printable(name, 60)),
-                 names.empty() ? "the scene has no \"materials\""
-                               : fmt::format("{}known: {}", hint, quotedList(names)));
+    reader.fail(fmt::format("unknown material \"{}\"", printable(name, 60)),
+                names.empty() ? "the scene has no \"materials\"" : fmt::format("{}known: {}", hint, quotedList(names)));
 }
 
 uint ShapeLoader::blackMaterial() {
@@ -168,84 +187,20 @@ void ShapeLoader::addRectangle(Reader& shape) {
     shape.finish();
 
     // A mirrored rectangle keeps its outer side when its edges change places.
-    if (transform.mirrors()) std::swap(u, v);
+    const bool mirrors = transform.mirrors();
+    if (mirrors) std::swap(u, v);
     const double area = soundArea(u, v);
     if (area == 0)
         edgesReader.fail("the edges span no area", "give two edges that are neither of length 0 nor parallel");
     const vec3 a = place(transform, corner);
     const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
+    const vec2 atU = mirrors ? vec2{0, 1} : vec2{1, 0}, atV = mirrors ? vec2{1, 0} : vec2{0, 1};
+    addCoordinates(shape, surface, {{0, 0}, atU, {1, 1}});
     addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
+    addCoordinates(shape, surface, {{0, 0}, {1, 1}, atV});
     addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
     addTarget(surface, boundingSphere(std::array{a, a + u, a + u + v, a + v}));
     noteGlass(shape, surface, scene.primitives.size() - 2);
-}
-
-const Mesh& ShapeLoader::meshOf(Reader& shape) {
-    const Reader fileReader = shape.at("file");
-    Smoothness smoothness = Smoothness::fromFile;
-    if (const auto smooth = shape.find("smooth"))
-        smoothness = smooth->boolean() ? Smoothness::smooth : Smoothness::flat;
-    const std::filesystem::path file = shape.path().parent_path() / fileReader.text();
-    const auto known = meshes.find({file, smoothness});
-    if (known != meshes.end()) return known->second;
-    if (const std::string problem = fileProblem(file, true); !problem.empty())
-        fileReader.fail(fmt::format("{}: {}", file.string(), problem),
-                        "give an OBJ, PLY or glTF file, relative to the scene file");
-    Mesh mesh = loadMesh(file, smoothness);
-    noteFiles(scene, mesh.files);
-    return meshes.emplace(std::pair{file, smoothness}, std::move(mesh)).first->second;
-}
-
-void ShapeLoader::addMesh(Reader& shape) {
-    const Reader fileReader = shape.at("file");
-    (void)shape.find("smooth");
-    const Transform transform = readTransform(shape);
-    const Surface surface = readSurface(shape);
-    shape.finish();
-    const Mesh& mesh = meshOf(shape);
-
-    const std::size_t dropped = add(shape, mesh, transform, surface);
-    if (dropped == mesh.triangles.size())
-        fileReader.fail("no triangle of the mesh has an area", "give a mesh with a surface");
-    for (const std::string& warning : mesh.warnings) fileReader.warn(scene.warnings, warning);
-    if (dropped > 0)
-        shape.warn(scene.warnings,
-                   fmt::format("{} of {} triangles have no area and were dropped", dropped, mesh.triangles.size()));
-}
-
-std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transform& transform,
-                             const Surface& surface) {
-    const std::size_t first = scene.primitives.size();
-    for (const Mesh::Triangle& triangle : mesh.triangles) addTriangle(shape, triangle, transform, surface);
-    const std::size_t dropped = mesh.triangles.size() - (scene.primitives.size() - first);
-    if (dropped == mesh.triangles.size()) return dropped;
-
-    std::vector<vec3> points;
-    for (std::size_t i = first; i < scene.primitives.size(); ++i)
-        for (const vec3 point : {scene.primitives[i].a, scene.primitives[i].b, scene.primitives[i].c})
-            points.push_back(point);
-    addTarget(surface, boundingSphere(points));
-    noteGlass(shape, surface, first);
-    return dropped;
-}
-
-void ShapeLoader::addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
-                              const Surface& surface) {
-    std::array<vec3, 3> points;
-    for (std::size_t i = 0; i < 3; ++i) points[i] = place(transform, triangle.points[i]);
-    std::optional<std::array<vec3, 3>> normals = triangle.normals;
-
-    // A mirrored triangle keeps its outer side when its winding is reversed.
-    if (transform.mirrors()) {
-        std::swap(points[1], points[2]);
-        if (normals) std::swap((*normals)[1], (*normals)[2]);
-    }
-    const double area = soundArea(points[1] - points[0], points[2] - points[0]) / 2;
-    if (area == 0) return;
-    Primitive primitive{points[0], points[1], points[2], surface.material, NONE, NONE};
-    primitive.light = addLight(surface, LIGHT_TRIANGLE, points[0], points[1] - points[0], points[2] - points[0], area);
-    if (normals) primitive.normals = addNormals(primitive, *normals, transform);
-    addFlat(shape, primitive);
 }
 
 void ShapeLoader::requireRoom(const Reader& shape) const {
@@ -278,20 +233,11 @@ uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, ve
     return static_cast<uint>(scene.lights.size() - 1);
 }
 
-uint ShapeLoader::addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals,
-                             const Transform& transform) {
-    scene.normals.push_back({unitNormal(transform.normal(normals[0]), primitive),
-                             unitNormal(transform.normal(normals[1]), primitive),
-                             unitNormal(transform.normal(normals[2]), primitive)});
-    return static_cast<uint>(scene.normals.size() - 1);
-}
-
 void ShapeLoader::addTarget(const Surface& surface, const Target& target) {
     if (!isSpecular(surface)) return;
     const Material& material = scene.materials[surface.material];
-    const bool coat = material.kind == MATERIAL_PLASTIC;
     scene.targets.push_back(target);
-    scene.targetWeights.push_back(coat ? 1 - scene.rests[material.rest * REST_ROW + REST_MEAN] : 1);
+    scene.targetWeights.push_back(reflectedByCoat(material, scene.rests));
 }
 
 } // namespace vkpm

@@ -11,6 +11,15 @@
 
 namespace vkpm {
 
+/// The steps that bring a shape into the world.
+Transform readTransform(Reader& shape);
+
+/// Area of the parallelogram of two edges; 0 if it is so thin or small that its normal would drown in rounding.
+double soundArea(vec3 u, vec3 v);
+
+/// Whether shapes of a material may emit: diffuse and standard ones.
+bool mayEmit(const Material& material);
+
 /// Fills the primitives, normals, lights and targets of a scene, shape by shape.
 class ShapeLoader {
 public:
@@ -28,21 +37,29 @@ public:
     /// Adds one element of "shapes", in the scene's coordinates. Throws InputError.
     void add(Reader shape);
     /// Adds a triangle mesh that no element of "shapes" brings; what is wrong with it is told of `place`. Returns how
-    /// many of its triangles have no area, and were left out.
-    std::size_t add(const Reader& place, const Mesh& mesh, const Transform& transform, const Surface& surface);
+    /// many of its triangles have no area, and were left out. `part` takes those of one material of the file alone.
+    std::size_t add(const Reader& place, const Mesh& mesh, const Transform& transform, const Surface& surface,
+                    std::optional<uint> part = {});
     /// Appends the spheres, which follow all triangles, and warns of glass that is not the boundary of a solid.
     void finish();
 
 private:
-    Surface readSurface(Reader& shape);
-    uint readMaterial(Reader& shape, bool emits);
+    Surface readSurface(Reader& shape, bool mayLackMaterial = false);
+    void requireEmitter(const Reader& place, const Surface& surface) const;
+    uint materialNamed(const Reader& reader) const;
     uint blackMaterial();
     const Mesh& meshOf(Reader& shape);
     void addSphere(Reader& shape);
     void addRectangle(Reader& shape);
     void addMesh(Reader& shape);
-    void addTriangle(const Reader& shape, const Mesh::Triangle& triangle, const Transform& transform,
+    std::size_t addParts(Reader& shape, Reader& byName, const Mesh& mesh, const Transform& transform,
+                         const Surface& surface);
+    void addTriangle(const Reader& shape, const Mesh& mesh, std::size_t index, const Transform& transform,
                      const Surface& surface);
+    void addCoordinates(const Reader& shape, const Surface& surface, const TexturePlaces& first,
+                        const TexturePlaces& second = {});
+    void requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface);
+    bool isTextured(const Surface& surface) const;
 
     void requireRoom(const Reader& shape) const;
     vec3 place(const Transform& transform, glm::dvec3 point) const;
@@ -57,6 +74,7 @@ private:
     Scene& scene;
     const std::map<std::string, uint>& materials;
     std::map<std::pair<std::filesystem::path, Smoothness>, Mesh> meshes; // by file, each loaded once
+    std::vector<TexturePlaces> coordinates[2]; // of triangles up to the last one that needs some
     std::vector<Primitive> spheres;
     std::vector<std::pair<Reader, GlassShape>> glass; // what is made of it, but for spheres
     uint black = NONE;

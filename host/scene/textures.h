@@ -1,0 +1,58 @@
+/// Texture objects of scene files, and the images that they name.
+#pragma once
+#include "scene/reader.h"
+#include "scene/scene.h"
+#include <map>
+
+namespace vkpm {
+
+/// What the numbers of an image stand for, where a texture does not say it.
+enum class TexelSpace { byFile, srgb, linear };
+
+/// Fills the textures and images of a scene; an image is read once.
+class Textures {
+public:
+    explicit Textures(Scene& target) : scene{target} {}
+
+    /// A colour, or a texture whose index goes to `slot`; then its factor.
+    vec3 color(const Reader& value, Range range, uint& slot);
+    /// A number, or a texture, whose index goes to `slot`; then the greatest number that it has. `channel` is the one
+    /// it takes if it does not say it.
+    float number(const Reader& value, Range range, uint& slot, uint channel = 0);
+
+    /// Whether a value is a texture.
+    static bool is(const Reader& value) { return value.isObject(); }
+
+    /// What Material.textures says of a material with these textures: 0 if it has none.
+    uint place(const MaterialTextures& textures);
+
+    /// The image of a file; `place` is where the scene names it.
+    uint image(const Reader& place, const std::filesystem::path& file, TexelSpace space);
+    /// Of bytes that are a file of that name.
+    uint image(const Reader& place, const std::string& name, std::string_view bytes, TexelSpace space);
+    uint add(const Texture& texture);
+
+    Scene& scene;
+
+private:
+    struct Stored {
+        TexelImage image;
+        bool wide;
+    };
+
+    uint read(Reader object, bool isColor, uint channel);
+    Stored store(const Reader& place, const std::string& name, std::string_view bytes, TexelSpace space);
+    std::vector<uint> tables() const;
+    float greatest(const Texture& texture) const;
+
+    std::map<std::pair<std::string, TexelSpace>, uint> images; // by name
+    std::map<std::string, TexelImage> narrow;                  // of 8 bits, which every space can read
+};
+
+/// What a texel of an image holds, as kernels read it.
+glm::dvec4 texelOf(const TextureArrays& arrays, const TexelImage& image, uint x, uint y);
+
+/// The value of a texture at coordinates, as textureAt of texture.glsl has it.
+glm::dvec4 textureAt(const TextureArrays& arrays, const Texture& texture, glm::dvec2 coordinates);
+
+} // namespace vkpm

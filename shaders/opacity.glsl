@@ -1,0 +1,33 @@
+// Surfaces that stop a part of what meets them: the rest goes through as if nothing were there. That is decided by a
+// hash of the ray and the primitive, so that it does not depend on the order in which a ray meets primitives, and
+// photons, rays from the eye and shadow rays have one rule.
+#ifndef OPACITY_GLSL
+#define OPACITY_GLSL
+#include "common.glsl"
+#include "hash.h"
+#include "intersect.glsl"
+#include "texture.glsl"
+
+// The part that is stopped at a point.
+float opacityAt(DeviceScene scene, Material m, uint primitive, vec2 weights, vec3 position) {
+    float opacity = 1.0 - m.seeThrough;
+    uint slot = m.textures != 0u ? MaterialTexturesPtr(scene.materialTextures).at[m.textures - 1u].opacity : NONE;
+    if (slot != NONE) {
+        Texture t = TexturePtr(scene.textures).at[slot];
+        vec2 coordinates[2] = coordinatesAt(scene, primitive, weights, position);
+        opacity = t.factor.x * textureAt(scene, t, t.set == 0u ? coordinates[0] : coordinates[1])[t.channel];
+    }
+    return m.cutoff > 0.0 ? float(opacity >= m.cutoff) : clamp(opacity, 0.0, 1.0);
+}
+
+// Whether a ray goes through a primitive that it meets; `again` where it meets a sphere the second time.
+bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weights, bool again) {
+    Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
+    if (m.seeThrough == 0.0) return false;
+    uint bits = hash(floatBitsToUint(ray.origin)) ^ hash(floatBitsToUint(ray.direction) + uvec3(0x9e3779b9u));
+    bits = hash(bits ^ hash(2u * primitive + uint(again)));
+    return float(bits >> 8) * (1.0 / 16777216.0) >=
+           opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
+}
+
+#endif

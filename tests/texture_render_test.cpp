@@ -1,0 +1,160 @@
+/// Pictures with textures: a white one changes no bit, and the layers are those of the path tracer.
+#include "images.h"
+#include "render_support.h"
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+using nlohmann::json;
+
+/// A box without front, with a ball; every surface of these materials.
+json box(const json& floor, const json& walls, const json& ball) {
+    return {
+        {"camera", {{"origin", {0, 0, 3.4}}, {"target", {0, 0, 0}}, {"fieldOfView", 40}}},
+        {"materials", {{"floor", floor}, {"walls", walls}, {"ball", ball}}},
+        {"shapes",
+         {{{"type", "rectangle"}, {"corner", {-1, -1, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "floor"}},
+          {{"type", "rectangle"}, {"corner", {-1, -1, -1}}, {"edges", {{2, 0, 0}, {0, 2, 0}}}, {"material", "walls"}},
+          {{"type", "rectangle"}, {"corner", {-1, -1, 1}}, {"edges", {{0, 0, -2}, {0, 2, 0}}}, {"material", "walls"}},
+          {{"type", "sphere"}, {"center", {0.3, -0.5, 0}}, {"radius", 0.45}, {"material", "ball"}},
+          {{"type", "rectangle"},
+           {"corner", {-0.4, 0.9, -0.4}},
+           {"edges", {{0.8, 0, 0}, {0, 0, 0.8}}},
+           {"emission", 6}}}}};
+}
+
+Settings small(const Scene& scene) {
+    Settings settings = scene.settings;
+    settings.size = {32, 32};
+    settings.photons = settings.causticPhotons = 10'000;
+    return settings;
+}
+
+TEST(TexturedPictures, WhiteTexturesChangeNoBit) {
+    writeScene(greyPng(255), "white.png");
+    const json white = {{"texture", "white.png"}};
+    const auto scene = [&](const json& color, const json& number) {
+        return loadJson(box({{"type", "plastic"}, {"albedo", color}, {"roughness", 0.3}},
+                            {{"type", "diffuse"}, {"albedo", color}},
+                            {{"type", "standard"}, {"baseColor", color}, {"metallic", number}, {"roughness", 0.5}}));
+    };
+    const Scene plain = scene(1, 1), textured = scene(white, white);
+    ASSERT_FALSE(textured.textured.textures.empty());
+    const std::vector<Pixel> a = renderPasses(plain, small(plain), 2).pixels,
+                             b = renderPasses(textured, small(plain), 2).pixels;
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Pixel)), 0);
+}
+
+std::vector<unsigned char> patches() {
+    std::vector<unsigned char> texels;
+    for (int i = 0; i < 8 * 8; i++)
+        for (const int value : {(i * 37) % 256, (i * 91 + i / 8 * 50) % 256, (i / 8 + i) % 2 * 200 + 40, 255})
+            texels.push_back(static_cast<unsigned char>(value));
+    return texels;
+}
+
+/// Layers of both integrators agree within four standard errors and 0.3 %.
+void expectAgreement(const Scene& scene, uint photonPasses, uint pathPasses) {
+    Settings settings = small(scene);
+    settings.radius = settings.causticRadius = 0.01f;
+    const auto means = [&](uint integrator, uint passes) {
+        settings.integrator = integrator;
+        std::vector<std::vector<double>> layers(LAYER_COUNT + 1);
+        for (uint seed = 0; seed < 5; seed++) {
+            settings.seed = 100 + seed;
+            const Rendered image = renderPasses(scene, settings, passes);
+            EXPECT_EQ(image.nonfinite, 0u);
+            for (uint layer = 0; layer <= LAYER_COUNT; layer++) layers[layer].push_back(layerMean(image.pixels, layer));
+        }
+        return layers;
+    };
+    const auto photon = means(INTEGRATOR_PHOTON, photonPasses), path = means(INTEGRATOR_PATH, pathPasses);
+    for (uint layer = 0; layer <= LAYER_COUNT; layer++) {
+        const Estimate a = estimate(photon[layer]), b = estimate(path[layer]);
+        std::printf("layer %u: photon %.6f +- %.6f  path %.6f +- %.6f\n", layer, a.mean, a.error, b.mean, b.error);
+        EXPECT_NEAR(a.mean, b.mean, 4 * std::hypot(a.error, b.error) + 0.004 * b.mean) << layer;
+    }
+}
+
+TEST(TexturedPictures, LayersAgreeWithThePathTracer) {
+    writeScene(pngBytes(8, 8, patches()), "patches.png");
+    const json image = {{"texture", "patches.png"}},
+               fine = {{"texture", "patches.png"}, {"transform", {{"scale", {3, 2}}}}};
+    expectAgreement(
+        loadJson(box({{"type", "plastic"}, {"albedo", image}, {"roughness", image}},
+                     {{"type", "diffuse"}, {"albedo", fine}},
+                     {{"type", "standard"}, {"baseColor", fine}, {"metallic", image}, {"roughness", fine}})),
+        16, 48);
+}
+
+/// A floor below a lamp, and sheets between them that the camera does not see.
+Scene sheets(int count, const json& material) {
+    json scene = {
+        {"camera", {{"origin", {0, 0.9, 1}}, {"target", {0, 0, 0}}, {"fieldOfView", 60}}},
+        {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.8}}}, {"sheet", material}}},
+        {"shapes",
+         {{{"type", "rectangle"}, {"corner", {-2, 0, 2}}, {"edges", {{4, 0, 0}, {0, 0, -4}}}, {"material", "white"}},
+          {{"type", "rectangle"}, {"corner", {-0.5, 3, -0.5}}, {"edges", {{1, 0, 0}, {0, 0, 1}}}, {"emission", 9}}}}};
+    for (int i = 0; i < count; i++)
+        scene["shapes"].push_back({{"type", "rectangle"},
+                                   {"corner", {-3, 1 + 0.01 * i, 3}},
+                                   {"edges", {{6, 0, 0}, {0, 0, -6}}},
+                                   {"material", "sheet"}});
+    return loadJson(scene);
+}
+
+double meanOf(const Scene& scene, uint integrator, uint layer) {
+    Settings settings = small(scene);
+    settings.integrator = integrator;
+    settings.layers = 1u << layer;
+    settings.photons = 50'000;
+    settings.radius = 0.2f;
+    return layerMean(renderPasses(scene, settings, 4).pixels, layer);
+}
+
+// Light samples and photons alike: sheets of black that stop a part.
+TEST(TexturedPictures, SheetsLetTheirPartThrough) {
+    const json black = {{"type", "diffuse"}, {"albedo", 0}};
+    const auto opaque = [&](double opacity) {
+        json material = black;
+        material["opacity"] = opacity;
+        return material;
+    };
+    writeScene(pngBytes<unsigned char>(1, 1, {255, 255, 255, 51}), "fifth.png");
+    json textured = black;
+    textured["opacity"] = {{"texture", "fifth.png"}, {"channel", "a"}};
+    for (const auto& [integrator, layer] :
+         {std::pair{INTEGRATOR_PHOTON, LAYER_DIRECT}, {INTEGRATOR_PHOTON_MAP, LAYER_INDIRECT}}) {
+        const double bare = meanOf(sheets(0, black), integrator, layer);
+        ASSERT_GT(bare, 0.1);
+        EXPECT_NEAR(meanOf(sheets(1, opaque(0.5)), integrator, layer) / bare, 0.5, 0.015) << integrator;
+        EXPECT_NEAR(meanOf(sheets(1, textured), integrator, layer) / bare, 0.8, 0.015) << integrator;
+        EXPECT_NEAR(meanOf(sheets(10, opaque(0.1)), integrator, layer) / bare, std::pow(0.9, 10), 0.015) << integrator;
+    }
+    const auto direct = [](const Scene& scene) { return meanOf(scene, INTEGRATOR_PHOTON, LAYER_DIRECT); };
+    EXPECT_EQ(direct(sheets(100, opaque(0.5))), 0);
+    textured["cutoff"] = 0.25;
+    EXPECT_EQ(direct(sheets(1, textured)), direct(sheets(0, black)));
+    textured["cutoff"] = 0.2;
+    EXPECT_EQ(direct(sheets(1, textured)), 0);
+}
+
+// A blended sheet, a ball and walls with holes, lit from both sides.
+TEST(TexturedPictures, LayersBehindSheetsAgreeWithThePathTracer) {
+    writeScene(pngBytes(8, 8, patches()), "patches.png");
+    const json hole = {{"texture", "patches.png"}, {"channel", "g"}};
+    json ball = {{"type", "metal"}, {"preset", "gold"}, {"roughness", 0.3}, {"opacity", 0.6}},
+         walls = {{"type", "diffuse"}, {"albedo", 0.8}, {"opacity", hole}, {"cutoff", 0.5}};
+    json scene = box({{"type", "diffuse"}, {"albedo", 0.7}}, walls, ball);
+    scene["materials"]["sheet"] = {{"type", "diffuse"}, {"albedo", {0.9, 0.8, 0.3}}, {"opacity", 0.3}};
+    scene["shapes"].push_back({{"type", "rectangle"},
+                               {"corner", {-0.8, -0.2, 0.6}},
+                               {"edges", {{1.5, 0, 0}, {0, 0, -1.2}}},
+                               {"material", "sheet"}});
+    expectAgreement(loadJson(scene), 16, 32);
+}
+
+} // namespace
+} // namespace vkpm

@@ -1,0 +1,311 @@
+/// Textures: what they say at coordinates, and where coordinates come from; images that are damaged are refused.
+#include "image/picture.h"
+#include "images.h"
+#include "judge.h"
+#include "scene/identity.h"
+#include "scene/textures.h"
+#include "scene_on_device.h"
+#include "scene_text.h"
+#include <chrono>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// The small scene with a rectangle of a material.
+json sceneOfMaterial(const json& material) {
+    json scene = smallScene();
+    scene["materials"]["textured"] = material;
+    scene["shapes"][0] = {
+        {"type", "rectangle"}, {"corner", {0, 0, 0}}, {"edges", {{2, 0, 0}, {0, 1, 0}}}, {"material", "textured"}};
+    return scene;
+}
+
+json sceneOfTexture(const json& texture) { return sceneOfMaterial({{"type", "diffuse"}, {"albedo", texture}}); }
+
+std::vector<vec4> valuesAt(const Scene& scene, const std::vector<vec2>& places) {
+    std::vector<TextureCase> xs;
+    for (const vec2& place : places) xs.push_back({0, place});
+    const TestScene device(scene);
+    return map<vec4>("texture_value", xs, {}, device.context());
+}
+
+/// The materials at places of a primitive.
+std::vector<Material> materialsAt(const Scene& scene, uint primitive, const std::vector<vec2>& weights,
+                                  const std::vector<Path>& paths = {}) {
+    std::vector<SurfaceCase> xs;
+    for (std::size_t i = 0; i < weights.size(); i++)
+        xs.push_back({paths.empty() ? Path{} : paths[i], {1, primitive, weights[i]}});
+    const TestScene device(scene);
+    return map<Material>("textured_material", xs, {}, device.context());
+}
+
+// By IEC 61966-2-1, in double precision.
+TEST(Textures, GreysAreWhatSrgbAndLinearSay) {
+    const std::tuple<int, const char*, double> known[]{{188, "srgb", 0.50289}, {188, "linear", 0.73725},
+                                                       {128, "srgb", 0.21586}, {128, "linear", 0.50196},
+                                                       {255, "srgb", 1},       {0, "srgb", 0}};
+    for (const auto& [grey, space, value] : known) {
+        writeScene(greyPng(static_cast<unsigned char>(grey)), "grey.png");
+        const Scene scene = loadJson(sceneOfTexture({{"texture", "grey.png"}, {"space", space}}));
+        for (const Material& m : materialsAt(scene, 0, {{0.2f, 0.3f}, {0, 0}})) EXPECT_NEAR(m.color.y, value, 2e-5);
+    }
+    writeScene(pngBytes<std::uint16_t>(1, 1, {65535, 32768, 1, 65535}), "deep.png");
+    const vec4 deep = valuesAt(loadJson(sceneOfTexture({{"texture", "deep.png"}})), {{0, 0}})[0];
+    EXPECT_EQ(deep.x, 1);
+    EXPECT_NEAR(deep.y, 32768 / 65535.0, 1e-7);
+    EXPECT_NEAR(deep.z, 1 / 65535.0, 1e-9);
+    writeScene(jpegBytes(16, 16, std::vector<unsigned char>(16 * 16 * 3, 188)), "grey.jpg");
+    EXPECT_NEAR(valuesAt(loadJson(sceneOfTexture({{"texture", "grey.jpg"}})), {{0, 0}})[0].x, 0.5029, 0.005);
+}
+
+// Three by five texels, each of another value, far beyond the image on all sides.
+TEST(Textures, WrapAndFilterAsTheHostSays) {
+    std::vector<unsigned char> texels;
+    Random random(1);
+    for (int i = 0; i < 3 * 5 * 4; i++) texels.push_back(static_cast<unsigned char>(random.bits() % 256));
+    writeScene(pngBytes(3, 5, texels), "odd.png");
+    std::vector<vec2> places{{-0.25f, 0.25f}, {1.25f, -3}, {0, 0}, {1, 1}, {-1, -1}, {1e6f + 0.5f, 0.5f}};
+    for (int i = 0; i < 2000; i++) places.emplace_back(random.between(-4, 4), random.between(-4, 4));
+    for (const char* wrapU : {"repeat", "mirror", "clamp"})
+        for (const char* wrapV : {"repeat", "mirror", "clamp"})
+            for (const char* filter : {"linear", "nearest"}) {
+                const Scene scene = loadJson(
+                    sceneOfTexture({{"texture", "odd.png"},
+                                    {"wrap", {wrapU, wrapV}},
+                                    {"filter", filter},
+                                    {"transform", {{"offset", {0.5, 0.25}}, {"rotation", 30}, {"scale", {2, 3}}}}}));
+                const std::vector<vec4> values = valuesAt(scene, places);
+                int wrong = 0; // at the edge of texels either is right
+                for (std::size_t i = 0; i < places.size(); i++) {
+                    if (i == 5) continue; // no digits are left of it
+                    const glm::dvec4 expected =
+                        textureAt(scene.textured, scene.textured.textures[0], glm::dvec2{places[i]});
+                    if (glm::distance(glm::dvec4{values[i]}, expected) < 1e-4) continue;
+                    ASSERT_EQ(filter, std::string{"nearest"});
+                    wrong++;
+                }
+                EXPECT_LE(wrong, 12) << wrapU << wrapV;
+            }
+}
+
+// Two by two texels at their middles and a period further; rows of images go down, coordinates up.
+TEST(Textures, CheckersAreTheRightWayUp) {
+    writeScene(pngBytes<unsigned char>(2, 2, {10, 0, 0, 255, 20, 0, 0, 255, 30, 0, 0, 255, 40, 0, 0, 255}),
+               "checker.png");
+    const auto reds = [](const json& wrap) {
+        const Scene scene = loadJson(sceneOfTexture({{"texture", "checker.png"}, {"space", "linear"}, {"wrap", wrap}}));
+        std::vector<double> result;
+        for (const vec4& value : valuesAt(scene, {{0.25f, 0.75f}, {0.75f, 0.25f}, {-0.25f, 0.75f}, {1.25f, 0.25f}}))
+            result.push_back(std::round(double{value.x} * 255));
+        return result;
+    };
+    EXPECT_THAT(reds("repeat"), ElementsAre(10, 40, 20, 30));
+    EXPECT_THAT(reds("mirror"), ElementsAre(10, 40, 10, 40));
+    EXPECT_THAT(reds("clamp"), ElementsAre(10, 40, 10, 40));
+    // On the rectangle from its corner along the first edge, then up.
+    const Scene scene =
+        loadJson(sceneOfTexture({{"texture", "checker.png"}, {"space", "linear"}, {"filter", "nearest"}}));
+    std::vector<double> seen;
+    for (const Material& m : materialsAt(scene, 0, {{0.1f, 0.1f}, {0.8f, 0.1f}, {0.1f, 0.8f}}))
+        seen.push_back(std::round(double{m.color.x} * 255)); // at (.2, .1), (.9, .1), (.9, .8)
+    EXPECT_THAT(seen, ElementsAre(30, 40, 20));
+}
+
+TEST(Textures, SpheresHaveLatitudesAndLongitudes) {
+    writeScene(pngBytes<unsigned char>(4, 2, {10, 0, 0, 255, 20, 0, 0, 255, 30, 0, 0, 255, 40, 0, 0, 255,
+                                              50, 0, 0, 255, 60, 0, 0, 255, 70, 0, 0, 255, 80, 0, 0, 255}),
+               "globe.png");
+    json json = sceneOfTexture({{"texture", "globe.png"}, {"space", "linear"}, {"filter", "nearest"}});
+    json["shapes"][0] = {{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"material", "textured"}};
+    const Scene scene = loadJson(json);
+    std::vector<Path> paths;
+    for (const vec3 n : {vec3{0.3f, 1, 1}, vec3{-0.3f, 1, 1}, vec3{0.9f, -1, -0.3f}, vec3{-0.9f, 1, -0.3f}})
+        paths.push_back({3.0f * glm::normalize(n), -glm::normalize(n), {}, 0, NONE, 0});
+    std::vector<SurfaceCase> xs;
+    for (const Path& path : paths) xs.push_back({path, {2, scene.triangleCount, {0, 0}}});
+    const TestScene device(scene);
+    std::vector<double> seen;
+    for (const Material& m : map<Material>("textured_material", xs, {}, device.context()))
+        seen.push_back(std::round(double{m.color.x} * 255));
+    EXPECT_THAT(seen, ElementsAre(30, 20, 80, 10)); // +z is the middle, +x to its right
+}
+
+// Numbers of textures, with their channel and factor; a lobe's width and what it leaves follow the roughness.
+TEST(Textures, NumbersChooseRowsOfRoughness) {
+    writeScene(pngBytes<unsigned char>(1, 1, {51, 102, 153, 204}), "four.png");
+    const json texture = {{"texture", "four.png"}};
+    Scene scene = loadJson(
+        sceneOfMaterial({{"type", "standard"}, {"metallic", texture}, {"roughness", texture}, {"baseColor", 0.5}}));
+    Material m = materialsAt(scene, 0, {{0, 0}})[0];
+    EXPECT_NEAR(m.metallic, 0.6, 1e-6);
+    EXPECT_NEAR(m.alpha, 0.16, 1e-6);
+    EXPECT_EQ(m.rest, 2 * 12u); // 0.4 of 32 steps
+    EXPECT_NEAR(m.restFraction, 0.8, 1e-5);
+    for (const auto& [channel, value] : {std::pair{"r", 0.2}, {"g", 0.4}, {"b", 0.6}, {"a", 0.8}}) {
+        json number = texture;
+        number["channel"] = channel;
+        number["factor"] = 0.5;
+        scene = loadJson(sceneOfMaterial({{"type", "metal"}, {"preset", "gold"}, {"roughness", number}}));
+        m = materialsAt(scene, 0, {{0, 0}})[0];
+        EXPECT_NEAR(m.alpha, value * value / 4, 1e-6);
+        EXPECT_EQ(m.kind, MATERIAL_METAL);
+    }
+    writeScene(greyPng(4), "smooth.png"); // so narrow everywhere that it is polished
+    scene =
+        loadJson(sceneOfMaterial({{"type", "metal"}, {"preset", "gold"}, {"roughness", {{"texture", "smooth.png"}}}}));
+    EXPECT_EQ(scene.materials[scene.primitives[0].material].kind, MATERIAL_POLISHED);
+}
+
+const char* const quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.5 0\nvt 0.5 0.25\nvt 0\n";
+
+TEST(Textures, MeshesHaveCoordinates) {
+    writeScene(greyPng(100), "grey.png");
+    const auto load = [](const std::string& text, const std::string& name) {
+        writeScene(text, name);
+        json scene = sceneOfTexture({{"texture", "grey.png"}});
+        scene["shapes"][0] = {{"type", "mesh"}, {"file", name}, {"material", "textured"}};
+        return loadJson(scene);
+    };
+    Scene scene = load(quad + std::string{"f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"}, "mesh.obj");
+    ASSERT_EQ(scene.textured.coordinates.size(), 4u); // the lamp is a rectangle
+    EXPECT_EQ(scene.textured.coordinates[0].c, vec2(0.5f, 0.25f));
+    EXPECT_EQ(scene.textured.coordinates[1].c, vec2(0, 0));
+    EXPECT_TRUE(scene.warnings.empty());
+    scene = load(quad + std::string{"f 1 2 3\n"}, "mesh.obj");
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(HasSubstr("/shapes/0: its material has a texture, but the mesh no texture")));
+    scene =
+        load("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+             "float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0 0.1 0.2\n1 0 0 0.3 0.4\n0 1 0 0.5 0.6\n3 0 1 2\n",
+             "mesh.ply");
+    EXPECT_EQ(scene.textured.coordinates[0].b, vec2(0.3f, 0.4f));
+    EXPECT_EQ(scene.textured.coordinates[0].c, vec2(0.5f, 0.6f));
+    writeScene(quad + std::string{"vt nan 0\nf 1/1 2/5 3/3\n"}, "mesh.obj");
+    json broken = sceneOfTexture({{"texture", "grey.png"}});
+    broken["shapes"][0] = {{"type", "mesh"}, {"file", "mesh.obj"}, {"material", "textured"}};
+    EXPECT_THAT(errorOf(broken), HasSubstr("/shapes/0: triangle 0 of the mesh, from 0, has texture coordinates"));
+}
+
+// "materials" of a mesh: faces by the names of its file, what is left by the shape's.
+TEST(Textures, FacesHaveMaterialsByName) {
+    writeScene(quad +
+                   std::string{"f 1 2 3\nusemtl red paint\nf 1 3 4\nusemtl blue\nf 2 3 4\nusemtl red paint\nf 1 2 4\n"},
+               "mesh.obj");
+    json scene = smallScene();
+    scene["shapes"][0] = {{"type", "mesh"},
+                          {"file", "mesh.obj"},
+                          {"material", "grey"},
+                          {"materials", {{"red paint", "steel"}, {"blue", "water"}}}};
+    const Scene loaded = loadJson(scene);
+    std::vector<uint> kinds;
+    for (uint i = 0; i < 4; i++) kinds.push_back(loaded.materials[loaded.primitives[i].material].kind);
+    EXPECT_THAT(kinds, ElementsAre(MATERIAL_DIFFUSE, MATERIAL_MIRROR, MATERIAL_MIRROR, MATERIAL_GLASS));
+    json& shape = scene["shapes"][0];
+    shape["materials"] = {{"green", "steel"}};
+    EXPECT_THAT(errorOf(scene),
+                HasSubstr("/shapes/0/materials/green: the mesh has no faces of a material \"green\"; it "
+                          "has \"red paint\" or \"blue\""));
+    shape["materials"] = {{"blue", "stele"}};
+    EXPECT_THAT(errorOf(scene), HasSubstr("/shapes/0/materials/blue: unknown material \"stele\"; did you mean"));
+    shape.erase("material");
+    shape["materials"] = {{"red paint", "steel"}, {"blue", "water"}};
+    EXPECT_THAT(errorOf(scene), HasSubstr("/shapes/0: some of its faces are of no material"));
+}
+
+TEST(Textures, CountForTheIdentity) {
+    const json json = sceneOfTexture({{"texture", "grey.png"}});
+    writeScene(greyPng(100), "grey.png");
+    const Scene one = loadJson(json);
+    EXPECT_EQ(one.files.size(), 2u);
+    writeScene(greyPng(101), "grey.png");
+    const Scene other = loadJson(json);
+    EXPECT_THAT(differences(identityOf(one, one.settings), identityOf(other, other.settings)),
+                ElementsAre("scene: what the file \"grey.png\" holds"));
+}
+
+std::string claim(uint width, uint height) {
+    std::string png = greyPng(1);
+    for (const auto& [at, value] : {std::pair{16u, width}, {20u, height}})
+        for (uint i = 0; i < 4; i++) png[at + i] = static_cast<char>(value >> (24 - 8 * i));
+    uint crc = 0xffffffffu; // of the chunk's type and data
+    for (std::size_t i = 12; i < 29; i++) {
+        crc ^= static_cast<unsigned char>(png[i]);
+        for (int k = 0; k < 8; k++) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    for (uint i = 0; i < 4; i++) png[29 + i] = static_cast<char>(~crc >> (24 - 8 * i));
+    return png;
+}
+
+TEST(Textures, WhatIsWrongHasItsPlace) {
+    const std::string place = "scene.json: /materials/textured/albedo";
+    const auto refusal = [](const json& texture) { return errorOf(sceneOfTexture(texture)); };
+    const auto refusalOf = [&](const std::string& bytes) {
+        writeScene(bytes, "image");
+        return refusal({{"texture", "image"}});
+    };
+    EXPECT_THAT(refusal({{"texture", "none.png"}}), HasSubstr(place + "/texture: "));
+    EXPECT_THAT(refusal({{"texture", "/dev/zero"}}),
+                HasSubstr("/dev/zero: this is a device or a pipe, not a file; give a PNG"));
+    EXPECT_THAT(refusalOf("not an image"), HasSubstr("found an unknown format; allowed is a PNG, JPEG"));
+    EXPECT_THAT(refusalOf(greyPng(1).substr(0, 60)), HasSubstr("cannot be read as a PNG image: "));
+    EXPECT_THAT(refusalOf(claim(1u << 20, 2048)),
+                HasSubstr("found 1048576 x 2048 texels, 8.19e+03 MiB; allowed are 1 to "
+                          "268435456, 1024 MiB"));
+    EXPECT_THAT(refusalOf(claim(16384, 16384)), HasSubstr("the file ends early"));
+    writeScene(greyPng(1), "image");
+    for (const auto& [key, value, message] : std::initializer_list<std::tuple<const char*, json, const char*>>{
+             {"space", "sRGB", "/space: "},
+             {"wrap", "tile", "/wrap: "},
+             {"wrap", {"repeat"}, "/wrap: "},
+             {"filter", "cubic", "/filter: "},
+             {"uv", 2, "/uv: found 2"},
+             {"factor", -1, "/factor: found -1"},
+             {"channel", "r", "/channel: found the channel of a colour"},
+             {"transform", {{"ofset", {0, 0}}}, "/transform/ofset: unknown key"},
+             {"colour", 1, "/colour: unknown key"}})
+        EXPECT_THAT(refusal({{"texture", "image"}, {key, value}}), HasSubstr(place + message)) << key;
+    EXPECT_THAT(errorOf(sceneOfMaterial({{"type", "mirror"}, {"reflectance", {{"texture", "image"}}}})),
+                HasSubstr("/reflectance: "));
+}
+
+// Damaged in one to eight places, or cut: read whole or refused, at once.
+TEST(Textures, DamagedImagesAreReadOrRefused) {
+    Random random(7);
+    std::vector<unsigned char> texels(32 * 24 * 4);
+    for (unsigned char& texel : texels) texel = static_cast<unsigned char>(random.bits() % 64);
+    std::vector<unsigned char> rgb(32 * 24 * 3, 99);
+    std::vector<std::uint16_t> deep(8 * 8 * 4, 1000);
+    const std::string sound[]{pngBytes(32, 24, texels), jpegBytes(32, 24, rgb), jpegBytes(32, 24, rgb, true),
+                              pngBytes(8, 8, deep)};
+    uint read = 0, refused = 0;
+    double longest = 0;
+    for (int i = 0; i < 6000; i++) {
+        std::string bytes = sound[i % 4];
+        if (random.bits() % 8 == 0) bytes.resize(random.bits() % bytes.size());
+        for (uint k = 0, n = 1 + random.bits() % 8; k < n && !bytes.empty(); k++)
+            bytes[random.bits() % bytes.size()] = static_cast<char>(random.bits());
+        const auto start = std::chrono::steady_clock::now();
+        try {
+            const Picture picture = decodePicture(bytes);
+            ASSERT_EQ(picture.bytes.size() + picture.floats.size(), std::size_t{picture.width} * picture.height);
+            read++;
+        } catch (const InputError&) {
+            refused++;
+        }
+        longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::printf("%u read, %u refused, %.3g s at most\n", read, refused, longest);
+    EXPECT_GT(read, 300u);
+    EXPECT_GT(refused, 300u);
+    EXPECT_LT(longest, 1);
+}
+
+} // namespace
+} // namespace vkpm
