@@ -21,7 +21,7 @@ void main() {
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
     vec3 origin = camera.origin, direction = cameraDirection(camera, film);
-    if (hasLens) {
+    if (hasLens && camera.aperture > 0.0) {
         Sampler s = pixelSampler(pixel, args.pass, args.seed, SAMPLES_EYE);
         vec3 offset = lensPoint(camera, sample2(s, LENS_DIMENSION));
         origin += offset;
