@@ -22,7 +22,7 @@ void main() {
     Camera camera = args.scene.at[0].camera;
     uint media = hasMedia ? args.scene.at[0].cameraMedia : 0u;
     vec3 origin = camera.origin, direction = cameraDirection(camera, film);
-    if (hasLens) {
+    if (hasLens && camera.aperture > 0.0) {
         Sampler s = pixelSampler(pixel, args.pass, args.seed, SAMPLES_EYE);
         vec3 offset = lensPoint(camera, sample2(s, LENS_DIMENSION));
         origin += offset;

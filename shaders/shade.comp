@@ -90,7 +90,7 @@ void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, Path path) {
 void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
     if (activeIntegrator() == INTEGRATOR_PHOTON_MAP || (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u)) return;
     bool direct = diffuseCount(path.flags) == 0u && (path.flags & PATH_EYE_SPECULAR) == 0u;
-    if (hasSky && direct && SkyPtr(scene.sky).at[0].visible == 0u) return;
+    if (hasSky && direct && scene.sky != uvec2(0u) && SkyPtr(scene.sky).at[0].visible == 0u) return;
     // A gather ray carries its share of direct light: splits have the rest, by light samples.
     uint layer = layerOf(path, LAYER_DIRECT);
     if (diffuseCount(path.flags) == 1u && (path.flags & PATH_SPECULARS) == 0u && pdfOf(path.flags) > 0.0) {

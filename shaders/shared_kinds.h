@@ -50,8 +50,8 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction
 
 // So far away that they are in the same direction from everywhere; the first of a scene's lights.
 #define ENDLESS_LIGHTS(X)                                                                                              \
-    X(5, SUN, Sun, "suns")  /* towards a; u: sine of half its angle, 1 - cosine */                                     \
-    X(6, SKY, Sky, "a sky") /* DeviceScene.sky */
+    X(5, SUN, Sun, "suns")             /* towards a; u: sine of half its angle, 1 - cosine */                          \
+    X(6, SKY, Sky, "light from a sky") /* DeviceScene.sky */
 
 #define X(id, NAME, name, lobes, words) const uint MATERIAL_##NAME = id;
 MATERIALS(X)

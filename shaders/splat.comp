@@ -69,14 +69,15 @@ void main() {
         DeviceScene scene = args.scene.at[0];
         Photon photon = args.photons.at[i];
         vec3 eye = scene.camera.origin, offset = vec3(0.0);
-        if (hasLens) {
+        bool lens = hasLens && scene.camera.aperture > 0.0;
+        if (lens) {
             Sampler s = photonSampler(i, args.pass, args.seed, LENS_DIMENSION);
             offset = lensPoint(scene.camera, sample2(s, 0u));
             eye += offset;
         }
         vec3 toPhoton = photon.position - eye;
         bool before = dot(toPhoton, scene.camera.forward) > 0.0;
-        if (!hasLens) pixel = pixelOf(scene.camera, toPhoton);
+        if (!lens) pixel = pixelOf(scene.camera, toPhoton);
         else if (before) pixel = pixelOf(scene.camera, throughLens(scene.camera, offset, toPhoton));
         onFilm = pixel != noPixel();
         vec3 radiance = vec3(0.0);

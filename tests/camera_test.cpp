@@ -25,6 +25,15 @@ TEST(Camera, FilmPositionsAreTheInverse) {
     for (std::size_t i = 0; i < xs.size(); i++) EXPECT_LT(glm::length(ys[i] - xs[i].film), 1e-6) << i;
 }
 
+// What is seen at a place of the film from any point of the lens goes back to that place.
+TEST(Camera, FilmPositionsThroughALensAreTheInverse) {
+    const View view{.origin = {1, 2, 3}, .target = {2, 1, -1}, .up = {0.2f, 1, 0}, .lens = {0.4f, 1.5f}};
+    std::vector<CameraCase> xs;
+    for (const vec2 film : unitSquare(10'000, 1)) xs.push_back({pinholeCamera(view, {30, 20}), film});
+    const auto ys = map<vec2>("lens_film", xs);
+    for (std::size_t i = 0; i < xs.size(); i++) ASSERT_LT(glm::length(ys[i] - xs[i].film), 3e-6) << i;
+}
+
 // Together they are the solid angle of the whole film, a rectangle at distance 1 (Howell's catalogue has it as 4 asin).
 TEST(Camera, SolidAnglesOfPixelsAddUp) {
     const double x = 2, y = 1;

@@ -81,7 +81,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     LIGHTS(X)
 #undef X
     has("hasTwoSidedLights", f.hasTwoSidedLights, "lights that shine on both sides");
-    has("hasLens", f.hasLens, "lens");
+    because("hasLens", f.hasLens ? "" : "the camera is a pinhole", "the camera has a lens");
     because("hasFarLights", f.hasFarLights ? "" : "all lights are near what they light",
             "photons of a light far away are aimed at the scene");
     because("hasGuide",
