@@ -19,7 +19,7 @@ ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3
     vec3 w = normalize(seen.point.position - origin);
     float cosine = cosineOfArrival(w, normal, shading, bulge) * diffuseArrivalAt(scene, from, origin, dot(w, shading));
     vec3 radiance =
-        emittedRadiance(light, seen.point.normal, -w) * (cosine * seen.inversePdf / (PI * probability)) * weight;
+        emittedRadianceAt(scene, light, seen.point, -w) * (cosine * seen.inversePdf / (PI * probability)) * weight;
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
     return ShadowRay(origin, from, offsetPoint(seen.point.position, seen.point.magnitude, lightSide), radiance, column,
                      uint(goesThrough(w, normal, bulge)));
@@ -60,7 +60,7 @@ ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material materi
     vec3 radiance = vec3(0.0);
     if (dot(w, normal) > 0.0 && dot(w, n) > 0.0 && dot(wo, n) > 0.0) {
         float pdf = unpackPdf(packPdf(pdfGlossy(material, leaving, n, wo, w)));
-        radiance = emittedRadiance(light, seen.point.normal, -w) * evaluateGlossy(material, leaving, n, wo, w) *
+        radiance = emittedRadianceAt(scene, light, seen.point, -w) * evaluateGlossy(material, leaving, n, wo, w) *
                    weight * (inversePdf * lightSampleWeight(inversePdf, pdf));
     }
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;

@@ -50,7 +50,9 @@ void main() {
         PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
     weight *= inverseDensity;
 
-    vec3 color = light.radiance / luminance(light.radiance) * (weight * light.share);
+    vec3 radiance = light.radiance;
+    if (hasEmissionTextures && light.texture != 0u) radiance = texturedRadiance(scene, light, point.position);
+    vec3 color = radiance / luminance(light.radiance) * (weight * light.share);
     args.paths.at[slot] = Path(origin, aim.direction, color, 0.0, NONE, 0u);
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;

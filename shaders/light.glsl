@@ -3,6 +3,7 @@
 #define LIGHT_GLSL
 #include "common.glsl"
 #include "shared_scene.h"
+#include "texture.glsl"
 
 struct LightPoint {
     vec3 position;
@@ -52,6 +53,12 @@ bool isTwoSided(Light light) { return hasTwoSidedLights && light.twoSided != 0u;
 // Radiance that a light sends in direction w from where its normal is n.
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
     return isTwoSided(light) || dot(n, w) > 0.0 ? light.radiance : vec3(0.0);
+}
+
+// The same at a point of it, where it may have a texture.
+vec3 emittedRadianceAt(DeviceScene scene, Light light, LightPoint point, vec3 w) {
+    if (!hasEmissionTextures || light.texture == 0u) return emittedRadiance(light, point.normal, w);
+    return isTwoSided(light) || dot(point.normal, w) > 0.0 ? texturedRadiance(scene, light, point.position) : vec3(0.0);
 }
 
 #endif

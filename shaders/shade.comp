@@ -68,7 +68,9 @@ void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surf
     uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     vertex.emissionColumn = layerColumn(layer);
-    vertex.emission = path.throughput * emittedRadiance(light, surface.normal, -path.direction);
+    vertex.emission = path.throughput *
+                      emittedRadianceAt(scene, light, LightPoint(surface.position, surface.magnitude, surface.normal),
+                                        -path.direction);
     if (hasGlossy)
         vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
 }

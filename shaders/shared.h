@@ -90,7 +90,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
     X(31, bool, hasContact, true)                                                                                      \
     X(32, bool, hasTextures, true)                                                                                     \
-    X(33, bool, hasOpacity, true)
+    X(33, bool, hasOpacity, true)                                                                                      \
+    X(34, bool, hasEmissionTextures, true)
 
 #ifdef __cplusplus
 struct Features {

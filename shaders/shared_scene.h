@@ -98,7 +98,8 @@ struct Light {
     uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
     float area;
-    float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+    float share;  // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+    uint texture; // 0, or 1 + index into DeviceScene.lightTextures; then `radiance` is about its mean
 };
 BUFFER(Light)
 
@@ -133,6 +134,7 @@ struct DeviceScene {
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers
     ADDRESS(MaterialTextures) materialTextures;
+    ADDRESS(LightTexture) lightTextures;
     ADDRESS(Texture) textures;
     ADDRESS(TexelImage) images;
     ADDRESS(uint) texels;               // tables, then words of images, see TexelImage

@@ -156,5 +156,25 @@ TEST(TexturedPictures, LayersBehindSheetsAgreeWithThePathTracer) {
     expectAgreement(loadJson(scene), 16, 32);
 }
 
+// A screen with a picture, whose bright places are few, lights the box; so does a ball with one.
+TEST(TexturedPictures, ScreensLightARoom) {
+    std::vector<unsigned char> texels;
+    for (int i = 0; i < 16 * 12; i++)
+        for (const int value : {i % 16 == 5 ? 250 : 20, i / 16 == 3 ? 220 : 10, i * 7 % 60, 255})
+            texels.push_back(static_cast<unsigned char>(value));
+    writeScene(pngBytes(16, 12, texels), "picture.png");
+    json scene = box({{"type", "plastic"}, {"albedo", 0.6}, {"roughness", 0.4}}, {{"type", "diffuse"}, {"albedo", 0.7}},
+                     {{"type", "diffuse"}, {"albedo", 0}});
+    scene["shapes"][3]["emission"] = {{"texture", "picture.png"}, {"factor", {1, 2, 3}}};
+    scene["shapes"][4] = {{"type", "rectangle"},
+                          {"corner", {0.9, -0.7, 0.6}},
+                          {"edges", {{0, 0, -1.2}, {0, 1.4, 0}}},
+                          {"twoSided", true},
+                          {"emission", {{"texture", "picture.png"}, {"factor", 8}}}};
+    const Scene loaded = loadJson(scene);
+    EXPECT_EQ(loaded.lights.size(), 1 + 16 * 12u);
+    expectAgreement(loaded, 16, 48);
+}
+
 } // namespace
 } // namespace vkpm

@@ -40,6 +40,7 @@ private:
     Buffer<Target> targets;
     Buffer<float> targetWeights;
     Buffer<MaterialTextures> materialTextures;
+    Buffer<LightTexture> lightTextures;
     Buffer<Texture> textures;
     Buffer<TexelImage> images;
     Buffer<uint> texels;

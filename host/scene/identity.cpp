@@ -40,6 +40,7 @@ std::string sceneHash(const Scene& scene) {
     hash.addWords(scene.view);
     if (!scene.textured.images.empty()) {
         hash.add(scene.textured.materials);
+        hash.add(scene.textured.lights);
         hash.add(scene.textured.textures);
         hash.add(scene.textured.images);
         hash.add(scene.textured.texels);
