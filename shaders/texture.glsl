@@ -99,11 +99,12 @@ vec2 weightsAt(DeviceScene scene, uint primitive, vec3 position) {
 // What a light with a texture emits at a point of it.
 vec3 texturedRadiance(DeviceScene scene, Light light, vec3 position) {
     LightTexture place = LightTexturePtr(scene.lightTextures).at[light.texture - 1u];
+    precise vec3 fromCorner = position - light.a; // or drivers know better, where they see how the point was made
     vec2 coordinates;
     if (light.kind == LIGHT_SPHERE) {
-        coordinates = sphereCoordinates(normalize(position - light.a));
+        coordinates = sphereCoordinates(normalize(fromCorner));
     } else {
-        vec2 w = weightsOf(light.u, light.v, position - light.a);
+        vec2 w = weightsOf(light.u, light.v, fromCorner);
         coordinates = place.a + w.x * place.u + w.y * place.v;
     }
     Texture t = TexturePtr(scene.textures).at[place.texture];
