@@ -48,7 +48,9 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
     if (bare) aim.weight *= 4.0 / light.area;
     else if (beam) aim.weight *= 4.0 * PI * light.u.x * light.u.x / light.area;
     if (bare || beam) aim.weight *= partOfBeam(light, aim.direction);
-    color = light.radiance / luminance(light.radiance);
+    vec3 radiance = light.radiance;
+    if (hasEmissionTextures && light.texture != 0u) radiance = texturedRadiance(scene, light, point.position);
+    color = radiance / luminance(light.radiance);
 }
 
 // The same of a light that is endlessly far: photons start where they enter the scene, unless a far light hides it.

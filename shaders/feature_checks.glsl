@@ -12,6 +12,7 @@ void requireLight(DeviceScene scene, Light light) {
     if (!checksFeatures) return;
     require(scene, scene.lightCount > 1u, hasManyLights, id_hasManyLights);
     require(scene, true, (lightKinds >> light.kind & 1u) != 0u, id_lightKinds);
+    require(scene, light.texture != 0u, hasEmissionTextures, id_hasEmissionTextures);
     require(scene, light.twoSided != 0u, hasTwoSidedLights, id_hasTwoSidedLights);
 }
 

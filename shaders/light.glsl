@@ -4,6 +4,7 @@
 #include "common.glsl"
 #include "light_beam.glsl"
 #include "shared_scene.h"
+#include "texture.glsl"
 
 struct LightPoint {
     vec3 position;
@@ -54,6 +55,12 @@ bool isTwoSided(Light light) { return hasTwoSidedLights && light.twoSided != 0u;
 vec3 emittedRadiance(Light light, vec3 n, vec3 w) {
     if (!isTwoSided(light) && dot(n, w) <= 0.0) return vec3(0.0);
     return hasSpots ? light.radiance * partOfBeam(light, w) : light.radiance;
+}
+
+// The same at a point of it, where it may have a texture.
+vec3 emittedRadianceAt(DeviceScene scene, Light light, LightPoint point, vec3 w) {
+    if (!hasEmissionTextures || light.texture == 0u) return emittedRadiance(light, point.normal, w);
+    return isTwoSided(light) || dot(point.normal, w) > 0.0 ? texturedRadiance(scene, light, point.position) : vec3(0.0);
 }
 
 #endif

@@ -33,7 +33,7 @@ LightView viewLight(DeviceScene scene, Light light, vec3 origin, vec2 place) {
     LightSample seen = sampleLight(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
-    return LightView(w, emittedRadiance(light, seen.point.normal, -w), seen.inversePdf,
+    return LightView(w, emittedRadianceAt(scene, light, seen.point, -w), seen.inversePdf,
                      offsetPoint(seen.point.position, seen.point.magnitude, lightSide), 0u, true);
 }
 

@@ -3,6 +3,7 @@
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
 #include "common.glsl"
+#include "shared_camera.h"
 #include "shared_kinds.h"
 #include "shared_paths.h"
 #include "shared_scene.h"
@@ -61,6 +62,12 @@ vec3 transmittance(DeviceScene scene, uint media, float way) {
     if (first == 0u) return vec3(1.0);
     vec3 x = mediumOf(scene, first).attenuation * way;
     return vec3(halved(x.x), halved(x.y), halved(x.z));
+}
+
+// The same along a shadow ray.
+vec3 shadowTransmittance(DeviceScene scene, uint media, ShadowRay ray) {
+    bool endless = (ray.flags & SHADOW_ENDLESS) != 0u;
+    return transmittance(scene, media, endless ? GREATEST : distance(ray.origin, ray.target));
 }
 
 // Indices for red, green and blue.

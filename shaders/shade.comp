@@ -74,16 +74,16 @@ bool findsLight(inout Vertex vertex, Path path) {
 void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surface) {
     if (!findsLight(vertex, path)) return;
     Light light = LightPtr(scene.lights).at[surface.light];
-    vertex.emission = path.throughput * emittedRadiance(light, surface.normal, -path.direction);
+    vertex.emission = path.throughput *
+                      emittedRadianceAt(scene, light, LightPoint(surface.position, surface.magnitude, surface.normal),
+                                        -path.direction);
     if (hasGlossy)
         vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
 }
 
 // A light sample comes through what the path is in.
 void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, Path path) {
-    if (hasMedia)
-        vertex.shadowRay.radiance *=
-            transmittance(scene, path.media, distance(vertex.shadowRay.origin, vertex.shadowRay.target));
+    if (hasMedia) vertex.shadowRay.radiance *= shadowTransmittance(scene, path.media, vertex.shadowRay);
 }
 
 // The same of the lights that are endlessly far.

@@ -94,7 +94,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(34, bool, hasTouching, true)                                                                                     \
     X(35, bool, hasLens, true)                                                                                         \
     X(36, bool, hasTextures, true)                                                                                     \
-    X(37, bool, hasOpacity, true)
+    X(37, bool, hasOpacity, true)                                                                                      \
+    X(38, bool, hasEmissionTextures, true)
 
 #ifdef __cplusplus
 struct Features {

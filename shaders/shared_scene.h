@@ -113,8 +113,9 @@ struct Light {
     vec3 radiance;
     uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
-    float area;  // of lights without one, flux over pi times radiance
-    float share; // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+    float area;   // of lights without one, flux over pi times radiance
+    float share;  // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+    uint texture; // 0, or 1 + index into DeviceScene.lightTextures; then `radiance` is about its mean
 };
 BUFFER(Light)
 
@@ -155,6 +156,7 @@ struct DeviceScene {
     ADDRESS(uint) touching; // by triangle, where the list of those that may lie on it begins, here too; then the lists
     ADDRESS(Sky) sky;
     ADDRESS(MaterialTextures) materialTextures;
+    ADDRESS(LightTexture) lightTextures;
     ADDRESS(Texture) textures;
     ADDRESS(TexelImage) images;
     ADDRESS(uint) texels;               // tables, then words of images, see TexelImage

@@ -40,6 +40,15 @@ struct Texture {
 };
 BUFFER(Texture)
 
+/// Where a light's texture lies on it: coordinates at its corner a, and along u and v. Spheres have latitudes.
+struct LightTexture {
+    uint texture;
+    vec2 a;
+    vec2 u;
+    vec2 v;
+};
+BUFFER(LightTexture)
+
 /// Textures of a material, indices into DeviceScene.textures or NONE.
 struct MaterialTextures {
     uint color;

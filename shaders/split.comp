@@ -28,7 +28,7 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
     ShadowRay ray =
         sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
                      args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u), gathers(from));
-    if (hasMedia) ray.radiance *= transmittance(args.scene.at[0], from.media, distance(ray.origin, ray.target));
+    if (hasMedia) ray.radiance *= shadowTransmittance(args.scene.at[0], from.media, ray);
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
 }

@@ -80,18 +80,35 @@ vec2[2] coordinatesAt(DeviceScene scene, uint primitive, vec2 weights, vec3 posi
     return vec2[2](first, second);
 }
 
-// The weights of b and c at a point next to a triangle.
-vec2 weightsAt(DeviceScene scene, uint primitive, vec3 position) {
-    Primitive p = PrimitivePtr(scene.primitives).at[primitive];
-    vec3 u = p.b - p.a, v = p.c - p.a, d = position - p.a;
+// The weights x and y of a point d = x u + y v, or of one next to the plane of u and v, within 0 to 1.
+vec2 weightsOf(vec3 u, vec3 v, vec3 d) {
     float longest = maxComponent(max(abs(u), abs(v)));
     float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u)); // a power of two
     u *= scale;
     v *= scale;
     d *= scale;
     vec3 n = cross(u, v);
-    float nn = max(dot(n, n), 1e-30);
-    return clamp(vec2(dot(cross(d, v), n), dot(cross(u, d), n)) / nn, 0.0, 1.0);
+    return clamp(vec2(dot(cross(d, v), n), dot(cross(u, d), n)) / max(dot(n, n), 1e-30), 0.0, 1.0);
+}
+
+vec2 weightsAt(DeviceScene scene, uint primitive, vec3 position) {
+    Primitive p = PrimitivePtr(scene.primitives).at[primitive];
+    return weightsOf(p.b - p.a, p.c - p.a, position - p.a);
+}
+
+// What a light with a texture emits at a point of it.
+vec3 texturedRadiance(DeviceScene scene, Light light, vec3 position) {
+    LightTexture place = LightTexturePtr(scene.lightTextures).at[light.texture - 1u];
+    precise vec3 fromCorner = position - light.a; // or drivers know better, where they see how the point was made
+    vec2 coordinates;
+    if (light.kind == LIGHT_SPHERE) {
+        coordinates = sphereCoordinates(normalize(fromCorner));
+    } else {
+        vec2 w = weightsOf(light.u, light.v, fromCorner);
+        coordinates = place.a + w.x * place.u + w.y * place.v;
+    }
+    Texture t = TexturePtr(scene.textures).at[place.texture];
+    return t.factor * textureAt(scene, t, coordinates).rgb;
 }
 
 // The width of a lobe, and what it leaves to a diffuse one, by its roughness.

@@ -165,6 +165,14 @@ public:
         if (maybe()) materials["steel"] = {{"type", "mirror"}, {"reflectance", color(0.5f, 1)}};
         if (maybe()) materials["glass"] = {{"type", "glass"}, {"ior", random.between(1.0f, 2.5f)}};
         if (materials.contains("glass") && maybe()) materials["glass"]["tint"] = color(0, 1);
+        if (random.bits() % 3 == 0) {
+            const json image = {{"texture", std::string(VKPM_SCENES) + "/wood.png"}};
+            materials["wood"] = {
+                {"type", "standard"}, {"metallic", random.unit()}, {"baseColor", image}, {"roughness", image}};
+            if (maybe()) materials["white"]["albedo"] = image;
+        }
+        if (random.bits() % 4 == 0)
+            materials[maybe() ? "white" : "veil"] = {{"type", "diffuse"}, {"albedo", 0.7}, {"opacity", random.unit()}};
         shapes = json::array();
         const bool onlySpheres = random.bits() % 6 == 0;
         if (!onlySpheres && maybe()) room();
@@ -235,7 +243,9 @@ private:
         json shape = onlySpheres || maybe() ? sphere() : rectangle();
         shape.erase("material");
         shape["emission"] = color(0, 20);
-        if (maybe()) shape["material"] = "white";
+        if (maybe() && !materials["white"].contains("opacity")) shape["material"] = "white";
+        if (random.bits() % 4 == 0)
+            shape["emission"] = {{"texture", std::string(VKPM_SCENES) + "/sunset.png"}, {"factor", 9}};
         if (maybe()) shape["twoSided"] = true;
         if (random.bits() % 4 == 0) shape["transform"] = {{{"translate", vector(50)}}};
         return shape;

@@ -13,7 +13,10 @@ struct GltfText {
 
     /// Adds an accessor with its view of the buffer; returns its index.
     template <class T> std::size_t add(const std::vector<T>& values, const char* type, nlohmann::json more = {}) {
-        const std::size_t components = std::string{"SCALAR"} == type ? 1 : std::string{"VEC3"} == type ? 3 : 4;
+        const std::size_t components = std::string{"SCALAR"} == type ? 1
+                                       : std::string{"VEC2"} == type ? 2
+                                       : std::string{"VEC3"} == type ? 3
+                                                                     : 4;
         more.update({{"bufferView", addView(values)},
                      {"componentType", componentType<T>()},
                      {"count", values.size() / components},

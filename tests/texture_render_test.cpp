@@ -1,4 +1,5 @@
 /// Pictures with textures: a white one changes no bit, and the layers are those of the path tracer.
+#include "draw.h"
 #include "images.h"
 #include "render_support.h"
 #include <cstring>
@@ -79,6 +80,7 @@ void expectAgreement(const Scene& scene, uint photonPasses, uint pathPasses) {
 }
 
 TEST(TexturedPictures, LayersAgreeWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
     writeScene(pngBytes(8, 8, patches()), "patches.png");
     const json image = {{"texture", "patches.png"}},
                fine = {{"texture", "patches.png"}, {"transform", {{"scale", {3, 2}}}}};
@@ -90,13 +92,17 @@ TEST(TexturedPictures, LayersAgreeWithThePathTracer) {
 }
 
 /// A floor below a lamp, and sheets between them that the camera does not see.
-Scene sheets(int count, const json& material) {
+Scene sheets(int count, const json& material,
+             const json& lamp = {{"type", "rectangle"},
+                                 {"corner", {-0.5, 3, -0.5}},
+                                 {"edges", {{1, 0, 0}, {0, 0, 1}}},
+                                 {"emission", 9}}) {
     json scene = {
         {"camera", {{"origin", {0, 0.9, 1}}, {"target", {0, 0, 0}}, {"fieldOfView", 60}}},
         {"materials", {{"white", {{"type", "diffuse"}, {"albedo", 0.8}}}, {"sheet", material}}},
         {"shapes",
          {{{"type", "rectangle"}, {"corner", {-2, 0, 2}}, {"edges", {{4, 0, 0}, {0, 0, -4}}}, {"material", "white"}},
-          {{"type", "rectangle"}, {"corner", {-0.5, 3, -0.5}}, {"edges", {{1, 0, 0}, {0, 0, 1}}}, {"emission", 9}}}}};
+          lamp}}};
     for (int i = 0; i < count; i++)
         scene["shapes"].push_back({{"type", "rectangle"},
                                    {"corner", {-3, 1 + 0.01 * i, 3}},
@@ -109,7 +115,7 @@ double meanOf(const Scene& scene, uint integrator, uint layer) {
     Settings settings = small(scene);
     settings.integrator = integrator;
     settings.layers = 1u << layer;
-    settings.photons = 50'000;
+    settings.photons = 500'000;
     settings.radius = 0.2f;
     return layerMean(renderPasses(scene, settings, 4).pixels, layer);
 }
@@ -143,6 +149,7 @@ TEST(TexturedPictures, SheetsLetTheirPartThrough) {
 
 // A blended sheet, a ball and walls with holes, lit from both sides.
 TEST(TexturedPictures, LayersBehindSheetsAgreeWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(1);
     writeScene(pngBytes(8, 8, patches()), "patches.png");
     const json hole = {{"texture", "patches.png"}, {"channel", "g"}};
     json ball = {{"type", "metal"}, {"preset", "gold"}, {"roughness", 0.3}, {"opacity", 0.6}},
@@ -154,6 +161,44 @@ TEST(TexturedPictures, LayersBehindSheetsAgreeWithThePathTracer) {
                                {"edges", {{1.5, 0, 0}, {0, 0, -1.2}}},
                                {"material", "sheet"}});
     expectAgreement(loadJson(scene), 16, 32);
+}
+
+// What photons of a screen bring to a floor is what light samples do.
+TEST(TexturedPictures, PhotonsHaveTheFluxOfTexels) {
+    std::vector<unsigned char> texels(8 * 8 * 4, 255);
+    for (std::size_t i = 0; i < texels.size(); i++)
+        if (i % 4 != 3) texels[i] = i / 4 % 8 == 2 ? 255 : static_cast<unsigned char>(i % 97);
+    writeScene(pngBytes(8, 8, texels), "picture.png");
+    for (const char* shape : {"rectangle", "sphere"}) {
+        json lamp = {{"type", "rectangle"}, {"corner", {-0.5, 3, -0.5}}, {"edges", {{1, 0, 0}, {0, 0, 1}}}};
+        if (shape == std::string{"sphere"}) lamp = {{"type", "sphere"}, {"center", {0, 2, 0}}, {"radius", 0.5}};
+        lamp["emission"] = {{"texture", "picture.png"}, {"factor", 9}};
+        const Scene scene = sheets(0, {{"type", "diffuse"}, {"albedo", 0}}, lamp);
+        const double direct = meanOf(scene, INTEGRATOR_PHOTON, LAYER_DIRECT),
+                     photons = meanOf(scene, INTEGRATOR_PHOTON_MAP, LAYER_INDIRECT);
+        EXPECT_NEAR(direct / 0.8 / photons, 1, 0.04) << shape; // the map shows what white would
+    }
+}
+
+// A screen with a picture, whose bright places are few, lights the box; so does a ball with one.
+TEST(TexturedPictures, ScreensLightARoom) {
+    SKIP_UNLESS_DRAWN(0);
+    std::vector<unsigned char> texels;
+    for (int i = 0; i < 16 * 12; i++)
+        for (const int value : {i % 16 == 5 ? 250 : 20, i / 16 == 3 ? 220 : 10, i * 7 % 60, 255})
+            texels.push_back(static_cast<unsigned char>(value));
+    writeScene(pngBytes(16, 12, texels), "picture.png");
+    json scene = box({{"type", "plastic"}, {"albedo", 0.6}, {"roughness", 0.4}}, {{"type", "diffuse"}, {"albedo", 0.7}},
+                     {{"type", "diffuse"}, {"albedo", 0}});
+    scene["shapes"][3]["emission"] = {{"texture", "picture.png"}, {"factor", {1, 2, 3}}};
+    scene["shapes"][4] = {{"type", "rectangle"},
+                          {"corner", {0.9, -0.7, 0.6}},
+                          {"edges", {{0, 0, -1.2}, {0, 1.4, 0}}},
+                          {"twoSided", true},
+                          {"emission", {{"texture", "picture.png"}, {"factor", 8}}}};
+    const Scene loaded = loadJson(scene);
+    EXPECT_EQ(loaded.lights.size(), 1 + 16 * 12u);
+    expectAgreement(loaded, 16, 48);
 }
 
 } // namespace

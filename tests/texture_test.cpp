@@ -1,4 +1,5 @@
 /// Textures: what they say at coordinates, and where coordinates come from; images that are damaged are refused.
+#include "gltf_text.h"
 #include "image/picture.h"
 #include "images.h"
 #include "judge.h"
@@ -228,6 +229,96 @@ TEST(Textures, CountForTheIdentity) {
     const Scene other = loadJson(json);
     EXPECT_THAT(differences(identityOf(one, one.settings), identityOf(other, other.settings)),
                 ElementsAre("scene: what the file \"grey.png\" holds"));
+}
+
+// The flux of a screen is that of its texels, whatever their number and where it is cut.
+TEST(Textures, ScreensHaveTheFluxOfTheirTexels) {
+    std::vector<unsigned char> texels;
+    glm::dvec3 mean{0};
+    for (int i = 0; i < 20 * 7; i++) {
+        const int value = i == 30 ? 255 : i % 3;
+        for (const int c : {value, value / 2, 0, 255}) texels.push_back(static_cast<unsigned char>(c));
+        mean += glm::dvec3{value, value / 2, 0} / (255.0 * 20 * 7); // NOLINT(bugprone-integer-division)
+    }
+    writeScene(pngBytes(20, 7, texels), "screen.png");
+    json scene = smallScene();
+    scene["shapes"][1]["emission"] = {{"texture", "screen.png"}, {"space", "linear"}, {"factor", {1, 2, 3}}};
+    const Scene loaded = loadJson(scene); // of 2 x 2
+    EXPECT_GT(loaded.lights.size(), 1u);
+    const double unit = loaded.coordinates.unit * loaded.coordinates.unit;
+    for (int c = 0; c < 2; c++)
+        EXPECT_NEAR(double{loaded.flux[c]} * unit, pi * 4 * (c + 1) * mean[c], 2e-3 * pi * 4 * (c + 1) * mean[c]);
+    scene["shapes"][1]["emission"]["factor"] = 0;
+    EXPECT_THAT(errorOf(scene), HasSubstr("there is no light"));
+    scene["shapes"][0]["material"] = "steel";
+    scene["shapes"][0]["emission"] = {{"texture", "screen.png"}};
+    EXPECT_THAT(errorOf(scene), HasSubstr("/shapes/0/emission: found emission on a material that is not diffuse"));
+}
+
+// glTF's coordinates go down; transforms, samplers, metal and roughness, opacity and emission as its specification
+// says.
+TEST(Textures, ModelsHaveTheirs) {
+    const std::string png =
+        pngBytes<unsigned char>(2, 2, {10, 51, 102, 255, 20, 0, 0, 0, 30, 0, 0, 128, 40, 0, 0, 255});
+    GltfText model = squareModel();
+    auto& file = model.json;
+    auto& primitive = file["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] = model.add<float>({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2"); // as the picture lies
+    primitive["attributes"]["TEXCOORD_1"] =
+        model.add<unsigned char>({0, 0, 255, 0, 255, 255, 0, 255}, "VEC2", {{"normalized", true}});
+    file["images"] = {
+        {{"bufferView", model.addView(std::vector<char>(png.begin(), png.end()))}, {"mimeType", "image/png"}}};
+    file["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
+    file["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}, {{"sampler", 0}}};
+    file["materials"] = json::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 0.5],
+        "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}, "roughnessFactor": 0.5}, "alphaMode": "MASK"}])");
+    const auto load = [&] { return loadScene(writeScene(model.glb(), "model.glb")); };
+    Scene scene = load();
+    // Corners of the first triangle are (0, 0), (1, 0), (1, 1) of the square.
+    auto seen = materialsAt(scene, 0, {{0.1f, 0.1f}, {0.9f, 0}, {0.1f, 0.8f}});
+    const auto red = [](const Material& m) { return std::round(1e5 * double{m.color.x}); };
+    const auto srgb = [](int byte) {
+        const double x = byte / 255.0;
+        return std::round(1e5 * 0.5 * (x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4)));
+    };
+    EXPECT_EQ(red(seen[0]), srgb(30));
+    EXPECT_EQ(red(seen[1]), srgb(40));
+    EXPECT_EQ(red(seen[2]), srgb(20));
+    seen = materialsAt(scene, 1, {{0.1f, 0.8f}}); // (0, 0), (1, 1), (0, 1)
+    EXPECT_EQ(red(seen[0]), srgb(10));
+    EXPECT_NEAR(seen[0].metallic, 0.4, 1e-6);
+    EXPECT_NEAR(seen[0].alpha, 0.01, 1e-6);
+    EXPECT_EQ(seen[0].cutoff, 0.5f);
+    EXPECT_EQ(scene.textured.textures[0].wrapU, WRAP_CLAMP);
+    EXPECT_EQ(scene.textured.textures[0].wrapV, WRAP_MIRROR);
+    EXPECT_EQ(scene.textured.textures[scene.textured.materials[0].opacity].channel, 3u);
+    EXPECT_EQ(scene.textured.images.size(), 2u); // one of them twice, as colours and as numbers
+    EXPECT_EQ(scene.textured.images[0].first, scene.textured.images[1].first);
+
+    // A quarter turn, counter-clockwise; then a step to the right; u' = v, v' = -u.
+    file["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"rotation", pi / 2}, {"offset", {0, 1}}};
+    scene = load();
+    EXPECT_EQ(red(materialsAt(scene, 0, {{0.1f, 0.1f}})[0]), srgb(40)); // (.2, .9) -> (.9, .8)
+    EXPECT_EQ(red(materialsAt(scene, 0, {{0.8f, 0.1f}})[0]), srgb(20)); // -> (.9, .1)
+
+    file["materials"] = json::parse(R"([{"emissiveFactor": [0.5, 1, 1], "emissiveTexture": {"index": 1, "texCoord": 1},
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 6}}, "normalTexture": {"index": 0}}])");
+    scene = load();
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.textured.textures[0].factor, vec3(3, 6, 6));
+    EXPECT_EQ(scene.textured.textures[0].set, 1u);
+    EXPECT_EQ(scene.textured.sets, 2u);
+    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("a normal map is left out")));
+    file["materials"][0]["emissiveTexture"]["index"] = 2;
+    EXPECT_THAT(load().warnings, testing::Contains(HasSubstr("neither PNG nor JPEG (KTX2, WebP) are left out")));
+    file["materials"][0]["emissiveTexture"]["index"] = 3;
+    EXPECT_THAT(errorOf(writeScene(model.glb(), "model.glb")), HasSubstr("/emissiveTexture/index: found 3"));
+    file["materials"][0]["emissiveTexture"]["index"] = 1;
+    file["images"][0] = {{"uri", "a%20picture.png"}};
+    writeScene(png, "a picture.png");
+    EXPECT_EQ(load().files.size(), 2u);
 }
 
 std::string claim(uint width, uint height) {

@@ -37,7 +37,7 @@ def wood(x, y, size):
     grain = 0.5 + 0.5 * math.sin(2 * math.pi * rings)
     tone = 0.75 + 0.35 * lattice(plank, 7) - 0.18 * grain - 0.1 * noise(16 * u, 8 * v, 64, 192)
     gap = 0.35 if across < 4 / size * 1.5 else 1
-    return [gap * tone * c for c in (0.72, 0.49, 0.30)] + [1]
+    return [*(gap * tone * c for c in (0.72, 0.49, 0.30)), 1]
 
 
 def leaf(x, y, size):
@@ -48,7 +48,7 @@ def leaf(x, y, size):
     inside = abs(u) < half * 0.95 or stalk
     vein = abs(u) < 0.025 or abs((v - 0.7 * abs(u)) * 8 % 1 - 0.5) > 0.46
     green = (0.42, 0.55, 0.18) if vein else (0.2, 0.36 + 0.08 * noise(8 * u + 8, 8 * v, 99, 99), 0.07)
-    return list(green) + [1 if inside else 0]
+    return [*green, 1 if inside else 0]
 
 
 def sunset(x, y, width, height):
@@ -57,7 +57,7 @@ def sunset(x, y, width, height):
     sun = math.hypot(u - 0.67, v - 0.55)
     if v > 0.4:
         sky = [0.95 - 0.75 * (v - 0.4), 0.45 - 0.35 * (v - 0.4), 0.18 + 0.5 * (v - 0.4)]
-        return [1, 0.9, 0.5, 1] if sun < 0.11 else sky + [1]
+        return [1, 0.9, 0.5, 1] if sun < 0.11 else [*sky, 1]
     glitter = abs(u - 0.67) < 0.06 + 0.2 * (0.4 - v) and math.sin(90 * v + 3 * math.sin(40 * u)) > 0.2
     return [1, 0.6, 0.25, 1] if glitter else [0.05, 0.1 + 0.2 * v, 0.25 + 0.2 * v, 1]
 

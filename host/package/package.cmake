@@ -31,7 +31,7 @@ file(COPY host/package/vkpm.1 DESTINATION ${documents})
 execute_process(COMMAND gzip -9nf changelog vkpm.1 WORKING_DIRECTORY ${documents})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS LICENSE host/package/changelog host/package/vkpm.1)
 
-file(GLOB scenes CONFIGURE_DEPENDS scenes/*.json scenes/*.obj scenes/*.hdr)
+file(GLOB scenes CONFIGURE_DEPENDS scenes/*.json scenes/*.obj scenes/*.hdr scenes/*.png)
 install(TARGETS vkpm DESTINATION bin)
 install(FILES ${scenes} DESTINATION share/vkpm/scenes)
 install(FILES README.md host/continuous_integration.md ${documents}/copyright ${documents}/changelog.gz

@@ -73,6 +73,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasTouching", f.hasTouching, "faces of glass that lie on each other");
     has("hasTextures", f.hasTextures, "textures");
     has("hasOpacity", f.hasOpacity, "surfaces that are not opaque");
+    has("hasEmissionTextures", f.hasEmissionTextures, "emission by a texture");
     has("hasTint", f.hasTint, "tinted glass");
     has("hasExactFresnel", f.hasExactFresnel, "glass of exact reflectance");
     has("hasSchlickFresnel", f.hasSchlickFresnel, "glass of Schlick's reflectance");

@@ -95,6 +95,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasTextures = anyMaterial([](const Material& m) { return m.textures != 0; });
     features.hasOpacity = anyMaterial([](const Material& m) { return m.seeThrough > 0; });
+    features.hasEmissionTextures = anyLight([](const Light& light) { return light.texture != 0; });
     features.hasManyLights = scene.lights.size() > 1;
     features.hasTwoSidedLights = anyLight([](const Light& light) { return light.twoSided != 0; });
     features.hasLens = scene.view.lens.aperture > 0;

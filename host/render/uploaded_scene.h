@@ -49,6 +49,7 @@ private:
     Buffer<float> skyRows;
     Buffer<Sky> sky;
     Buffer<MaterialTextures> materialTextures;
+    Buffer<LightTexture> lightTextures;
     Buffer<Texture> textures;
     Buffer<TexelImage> images;
     Buffer<uint> texels;

@@ -29,6 +29,7 @@ constexpr std::array knownExtensions{"EXT_mesh_gpu_instancing",
                                      "KHR_materials_unlit",
                                      "KHR_materials_variants",
                                      "KHR_materials_volume",
+                                     "KHR_texture_transform",
                                      "KHR_materials_diffuse_transmission",
                                      "KHR_materials_pbrSpecularGlossiness",
                                      "KHR_mesh_quantization",
@@ -197,10 +198,7 @@ std::string GltfFile::loadBuffer(Reader place, std::size_t number) {
     const auto uri = place.find("uri");
     std::string bytes;
     if (uri) {
-        const std::string text = uri->text();
-        const std::size_t comma = text.starts_with("data:") ? text.find(";base64,") : text.npos;
-        bytes =
-            comma == text.npos ? loadFile(*uri, text) : decodeBase64(*uri, std::string_view{text}.substr(comma + 8));
+        bytes = loadUri(*uri);
     } else if (number == 0 && binary) {
         bytes = std::move(*binary);
     } else {
@@ -212,6 +210,17 @@ std::string GltfFile::loadBuffer(Reader place, std::size_t number) {
                    fmt::format("what it names has {}", bytes.size()));
     bytes.resize(length);
     return bytes;
+}
+
+std::string GltfFile::loadUri(const Reader& uri) {
+    const std::string text = uri.text();
+    const std::size_t comma = text.starts_with("data:") ? text.find(";base64,") : text.npos;
+    return comma == text.npos ? loadFile(uri, text) : decodeBase64(uri, std::string_view{text}.substr(comma + 8));
+}
+
+std::string GltfFile::image(Reader& place) {
+    if (const auto uri = place.find("uri")) return loadUri(*uri);
+    return std::string{view(place.at("bufferView")).bytes};
 }
 
 std::string GltfFile::loadFile(const Reader& uri, const std::string& text) {

@@ -27,6 +27,9 @@ public:
     /// The element of a list at the top, such as "accessors", that an index refers to.
     Reader referenced(const Reader& index, std::string_view list) const;
     GltfView view(const Reader& index);
+    /// The bytes of an element of "images".
+    std::string image(Reader& place);
+    const std::filesystem::path& name() const { return file; }
 
     const std::vector<std::filesystem::path>& files() const { return read; }
     std::uint64_t size() const { return bytesRead; } // of all that was read so far
@@ -36,6 +39,7 @@ private:
     void requireExtensions() const;
     const std::string& buffer(const Reader& index);
     std::string loadBuffer(Reader place, std::size_t number);
+    std::string loadUri(const Reader& uri);
     std::string loadFile(const Reader& uri, const std::string& text);
 
     std::filesystem::path file;

@@ -23,7 +23,8 @@ json listOf(const vec3& color) { return {color.x, color.y, color.z}; }
 /// The parts of a material that matter here, read and checked.
 class GltfSurface {
 public:
-    GltfSurface(Reader from, Losses& lost) : material{std::move(from)}, losses{lost} {
+    GltfSurface(Reader from, GltfTextures images, Losses& lost)
+        : material{std::move(from)}, textures{images}, losses{lost} {
         extensions = material.find("extensions");
         pbr = material.find("pbrMetallicRoughness");
         if (const auto color = pbr ? pbr->find("baseColorFactor") : std::nullopt) base = readBase(*color);
@@ -38,7 +39,12 @@ public:
         specularColor = colorOr(specularOf, "specularColorFactor", notNegative);
         thickness = numberOr(volume, "thicknessFactor", 0, notNegative);
         attenuates = thickness > 0 && colorOr(volume, "attenuationColor", fraction) != vec3{1};
+        if (const auto info = pbr ? pbr->find("baseColorTexture") : std::nullopt)
+            baseTexture = textures.read(*info, true);
+        if (const auto info = pbr ? pbr->find("metallicRoughnessTexture") : std::nullopt)
+            roughnessTexture = textures.read(*info, false);
         readSpecularGlossiness();
+        readOpacity();
         noteLosses();
     }
 
@@ -47,18 +53,26 @@ public:
         auto strength = extension("KHR_materials_emissive_strength");
         const float scale = numberOr(strength, "emissiveStrength", 1, notNegative);
         const vec3 radiance = factor ? scale * factor->vector(fraction) : vec3{0};
-        if (radiance != vec3{0} && material.find("emissiveTexture")) {
-            lose("a texture that says where a surface emits cannot be read: the surface emits nothing");
-            return vec3{0};
-        }
         if (!(radiance.x + radiance.y + radiance.z < std::numeric_limits<float>::infinity()))
             material.fail("what is emitted is beyond the range of 32-bit floats", "allowed are finite products");
         return radiance;
     }
 
+    /// What it emits as a texture; null without one.
+    json emissionTexture(const vec3& radiance) {
+        const auto info = material.find("emissiveTexture");
+        if (radiance == vec3{0} || !info) return nullptr;
+        auto texture = textures.read(*info, true);
+        if (!texture) return nullptr;
+        (*texture)["factor"] = listOf(radiance);
+        return *texture;
+    }
+
     json opaque() {
-        json result{
-            {"type", "standard"}, {"baseColor", listOf(base)}, {"metallic", metallic}, {"roughness", roughness}};
+        json result{{"type", "standard"},
+                    {"baseColor", withFactor(baseTexture, listOf(base))},
+                    {"metallic", withFactor(roughnessTexture, metallic)},
+                    {"roughness", withFactor(roughnessTexture, roughness)}};
         if (ior != 1.5f) result["ior"] = ior;
         if (specular != 1) result["specular"] = specular;
         if (specularColor != vec3{1}) result["specularColor"] = listOf(specularColor);
@@ -74,7 +88,25 @@ public:
                  "\"import\" "
                  "takes it for panes");
         if (!(ior >= 1e-3f && ior <= 1e3f)) lose("an index of refraction beyond 0.001 to 1000 becomes 1.5"), ior = 1.5f;
-        return {{"type", "glass"}, {"ior", isThin ? 1.0f : ior}, {"tint", listOf(base)}, {"roughness", roughness}};
+        json result{{"type", "glass"}, {"ior", isThin ? 1.0f : ior}, {"tint", listOf(base)}};
+        if (baseTexture) // of which a standard material may be made
+            result = {{"type", "standard"},
+                      {"metallic", 0},
+                      {"transmission", 1},
+                      {"ior", isThin ? 1.0f : ior},
+                      {"baseColor", withFactor(baseTexture, listOf(base))}};
+        result["roughness"] = withFactor(roughnessTexture, roughness);
+        if (result["type"] == "glass" && roughnessTexture) result["roughness"]["channel"] = "g";
+        return result;
+    }
+
+    /// Adds what the material stops of what meets it.
+    void addOpacity(json& to) {
+        if (!opacity.is_null()) to["opacity"] = opacity;
+        if (cutoff) to["cutoff"] = *cutoff;
+    }
+    void loseOpacity() {
+        if (!opacity.is_null()) lose("the opacity of what emits is left out");
     }
 
     bool isTwoSided() {
@@ -97,26 +129,40 @@ private:
         roughness = 1 - numberOr(older, "glossinessFactor", 1, fraction);
         specularColor = colorOr(older, "specularFactor", fraction);
         if (const auto color = older->find("diffuseFactor")) base = readBase(*color);
-        if (older->find("diffuseTexture")) noteColorTexture();
+        if (const auto info = older->find("diffuseTexture")) baseTexture = textures.read(*info, true);
+        if (older->find("specularGlossinessTexture")) lose("a texture of specular colour and gloss is left out");
     }
 
-    vec3 readBase(const Reader& color) const {
+    vec3 readBase(const Reader& color) {
         const std::vector<Reader> parts = color.elements(4, 4, "an array of 4 numbers, [red, green, blue, opacity]");
+        alpha = parts[3].number(fraction);
         return {parts[0].number(fraction), parts[1].number(fraction), parts[2].number(fraction)};
     }
 
-    void noteColorTexture() {
-        lose("a texture of colour cannot be read: the surface is half as bright as its factor says");
-        base *= 0.5f;
+    static json withFactor(const std::optional<json>& texture, json factor) {
+        if (!texture) return factor;
+        json result = *texture;
+        result["factor"] = std::move(factor);
+        return result;
+    }
+
+    void readOpacity() {
+        const auto mode = material.find("alphaMode"), threshold = material.find("alphaCutoff");
+        const std::size_t kind = mode ? mode->choice({"OPAQUE", "MASK", "BLEND"}) : 0;
+        if (kind == 0 || (!baseTexture && alpha == 1)) return;
+        opacity = withFactor(baseTexture, alpha);
+        if (baseTexture) opacity["channel"] = "a";
+        if (kind == 1) cutoff = std::min(threshold ? threshold->number(notNegative) : 0.5f, 1.0f);
     }
 
     void noteLosses() {
-        if (pbr && pbr->find("baseColorTexture")) noteColorTexture();
-        if (pbr && pbr->find("metallicRoughnessTexture")) lose("a texture of metal and roughness is left out");
         if (material.find("normalTexture")) lose("a normal map is left out");
-        const auto alpha = material.find("alphaMode");
-        if (alpha && alpha->choice({"OPAQUE", "MASK", "BLEND"}) > 0)
-            lose("opacity is left out: what is see-through there is opaque");
+        for (const auto& [name, texture] : {std::pair{"transmission", "transmissionTexture"},
+                                            {"volume", "thicknessTexture"},
+                                            {"specular", "specularTexture"},
+                                            {"specular", "specularColorTexture"}})
+            if (auto object = extension(fmt::format("KHR_materials_{}", name)); object && object->find(texture))
+                lose(fmt::format("\"{}\" is left out", texture));
         if (transmission > 0 && transmission < 0.5f) lose("a transmission below 0.5 is left out");
         for (const char* name :
              {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "iridescence", "sheen", "unlit"})
@@ -125,7 +171,12 @@ private:
     }
 
     Reader material;
+    GltfTextures textures;
     Losses& losses;
+    std::optional<json> baseTexture, roughnessTexture;
+    json opacity;
+    std::optional<float> cutoff;
+    float alpha = 1;
     std::optional<Reader> extensions, pbr;
     vec3 base{1};
     vec3 specularColor{1};
@@ -135,11 +186,14 @@ private:
 
 } // namespace
 
-GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, Losses& losses) {
-    GltfSurface surface(std::move(material), losses);
+GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, GltfTextures textures, Losses& losses) {
+    GltfSurface surface(std::move(material), textures, losses);
     GltfMaterial result{.radiance = surface.readEmission(), .twoSided = surface.isTwoSided()};
-    const bool emits = result.radiance != vec3{0}; // glass may not
+    const bool emits = result.radiance != vec3{0}; // glass may not, nor what is not opaque
+    result.emission = surface.emissionTexture(result.radiance);
     result.material = surface.isGlass() && !emits ? surface.transparent(glass) : surface.opaque();
+    if (emits) surface.loseOpacity();
+    else surface.addOpacity(result.material);
     return result;
 }
 

@@ -51,6 +51,7 @@ std::string sceneHash(const Scene& scene) {
     if (v.lens.aperture > 0) hash.addWords(v.lens);
     if (!scene.textured.images.empty()) {
         hash.add(scene.textured.materials);
+        hash.add(scene.textured.lights);
         hash.add(scene.textured.textures);
         hash.add(scene.textured.images);
         hash.add(scene.textured.texels);

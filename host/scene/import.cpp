@@ -123,9 +123,9 @@ std::vector<dvec3> Import::somePlaces() const {
     return places;
 }
 
-GltfMaterial Import::material(uint index) {
+GltfMaterial Import::material(uint index, Textures& textures) {
     if (index == NONE) return defaultGltfMaterial();
-    return readGltfMaterial(file->root().at("materials").element(index), glass, losses);
+    return readGltfMaterial(file->root().at("materials").element(index), glass, {*file, textures, losses}, losses);
 }
 
 std::string Import::materialName(uint index) const {

@@ -36,7 +36,7 @@ public:
     std::vector<glm::dvec3> somePlaces() const;
 
     /// A material of the file as an element of "materials", and its name there; NONE has glTF's default values.
-    GltfMaterial material(uint index);
+    GltfMaterial material(uint index, Textures& textures);
     std::string materialName(uint index) const;
 
     /// As a scene file says it: the camera that was asked for, else the first, else one that sees all from the front.

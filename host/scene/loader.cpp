@@ -142,17 +142,22 @@ Reader importedCamera(Import& import, std::optional<Reader> film, Settings& sett
 /// What a part of an import is made of: a material of the scene by the same name, or that of the file.
 ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, Scene& scene, Textures& textures,
                                      const std::map<std::string, uint>& ofScene) {
-    const GltfMaterial imported = import.material(part.material);
+    const GltfMaterial imported = import.material(part.material, textures);
     const auto own = ofScene.find(import.materialName(part.material));
     ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
                                  imported.radiance, imported.twoSided};
+    if (!imported.emission.is_null())
+        surface.radiance =
+            textures.color(Reader{scene.files.front(), imported.emission}, notNegative, surface.emission);
     if (own == ofScene.end()) {
         scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, textures));
     } else if (const Material& its = scene.materials[surface.material];
                surface.radiance != vec3{0} && (!mayEmit(its) || its.seeThrough > 0)) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
         surface.radiance = vec3{0};
+        surface.emission = NONE;
     }
+    noteFiles(scene, import.files()); // with those of images
     return surface;
 }
 
@@ -208,7 +213,7 @@ void readScene(Reader root, Scene& scene) {
         addSuns(import->lamps(), scene);
     }
     if (!camera) camera = importedCamera(*import, film, scene.settings);
-    ShapeLoader loader{scene, indices};
+    ShapeLoader loader{textures, indices};
     const std::size_t count = shapes ? shapes->count(1, manyShapes, "an array of shapes, at least one") : 0;
     std::vector<dvec3> places; // not the camera's, which may move while the scene stays where it is
     if (import) places = import->somePlaces();

@@ -88,7 +88,9 @@ std::size_t ShapeLoader::addParts(Reader& shape, Reader& byName, const Mesh& mes
     return dropped;
 }
 
-bool ShapeLoader::isTextured(const Surface& surface) const { return scene.materials[surface.material].textures != 0; }
+bool ShapeLoader::isTextured(const Surface& surface) const {
+    return surface.emission != NONE || scene.materials[surface.material].textures != 0;
+}
 
 /// Before the triangle itself is added.
 void ShapeLoader::addCoordinates(const Reader& shape, const Surface& surface, const TexturePlaces& first,
@@ -107,8 +109,10 @@ void ShapeLoader::addCoordinates(const Reader& shape, const Surface& surface, co
 
 void ShapeLoader::requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface) {
     if (!isTextured(surface)) return;
-    const MaterialTextures& slots = scene.textured.materials[scene.materials[surface.material].textures - 1];
-    for (const uint slot : {slots.color, slots.metallic, slots.roughness, slots.opacity}) {
+    const uint textured = scene.materials[surface.material].textures;
+    const MaterialTextures slots =
+        textured != 0 ? scene.textured.materials[textured - 1] : MaterialTextures{NONE, NONE, NONE, NONE};
+    for (const uint slot : {slots.color, slots.metallic, slots.roughness, slots.opacity, surface.emission}) {
         const uint set = slot == NONE ? 0 : scene.textured.textures[slot].set;
         if (slot == NONE || !mesh.coordinates[set].empty()) continue;
         return shape.warn(scene.warnings, fmt::format("its material has a texture, but the mesh no {} coordinates: all "
@@ -154,13 +158,15 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t
     const double area = soundArea(points[1] - points[0], points[2] - points[0]) / 2;
     if (area == 0) return;
     Primitive primitive{points[0], points[1], points[2], surface.material, NONE, NONE};
-    primitive.light = addLight(surface, LIGHT_TRIANGLE, points[0], points[1] - points[0], points[2] - points[0], area);
     if (normals) primitive.normals = addNormals(primitive, *normals, transform);
     TexturePlaces sets[2]{};
     for (std::size_t set = 0; set < 2; ++set)
         if (!mesh.coordinates[set].empty()) sets[set] = mesh.coordinates[set][index];
     if (transform.mirrors())
         for (TexturePlaces& c : sets) std::swap(c.b, c.c);
+    const uint set = surface.emission == NONE ? 0 : scene.textured.textures[surface.emission].set;
+    primitive.light =
+        addLight(surface, LIGHT_TRIANGLE, points[0], points[1] - points[0], points[2] - points[0], area, sets[set]);
     addCoordinates(shape, surface, sets[0], sets[1]);
     addFlat(shape, primitive);
 }

@@ -47,6 +47,7 @@ struct View {
 /// Textures, see shared_textures.h; all are empty where nothing has one.
 struct TextureArrays {
     std::vector<MaterialTextures> materials;
+    std::vector<LightTexture> lights;
     std::vector<Texture> textures;
     std::vector<TexelImage> images;
     std::vector<uint> texels;

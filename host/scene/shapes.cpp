@@ -2,6 +2,7 @@
 #include "scene/shapes.h"
 #include "scene/bounding_sphere.h"
 #include "scene/box.h"
+#include "scene/emission.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void ShapeLoader::noteGlass(const Reader& shape, const Surface& surface, std::si
 ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape, bool mayLackMaterial) {
     Surface surface;
     const auto emission = shape.find("emission"), material = shape.find("material");
-    if (emission) surface.radiance = emission->color(notNegative);
+    if (emission) surface.radiance = textures.color(*emission, notNegative, surface.emission);
     if (const auto twoSided = shape.find("twoSided")) surface.twoSided = twoSided->boolean();
     if (const auto name = shape.find("name")) (void)name->text();
 
@@ -193,14 +194,35 @@ void ShapeLoader::addRectangle(Reader& shape) {
     if (area == 0)
         edgesReader.fail("the edges span no area", "give two edges that are neither of length 0 nor parallel");
     const vec3 a = place(transform, corner);
-    const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, area);
     const vec2 atU = mirrors ? vec2{0, 1} : vec2{1, 0}, atV = mirrors ? vec2{1, 0} : vec2{0, 1};
-    addCoordinates(shape, surface, {{0, 0}, atU, {1, 1}});
-    addFlat(shape, {a, a + u, a + u + v, surface.material, light, NONE});
-    addCoordinates(shape, surface, {{0, 0}, {1, 1}, atV});
-    addFlat(shape, {a, a + u + v, a + v, surface.material, light, NONE});
+    uvec2 parts{1, 1};
+    if (surface.emission != NONE && surface.radiance != vec3{0})
+        parts = partsOf({scene.textured, scene.textured.textures[surface.emission], {0, 0}, atU, atV});
+    for (uint i = 0; i < parts.x; i++)
+        for (uint j = 0; j < parts.y; j++) {
+            std::array<vec3, 4> corners;
+            std::array<vec2, 4> places;
+            for (uint k = 0; k < 4; k++) { // around the part
+                const float s = float(i + (k == 1 || k == 2)) / float(parts.x), t = float(j + k / 2) / float(parts.y);
+                corners[k] = a;
+                if (s != 0) corners[k] += s * u;
+                if (t != 0) corners[k] += t * v;
+                places[k] = s * atU + t * atV;
+            }
+            addRectanglePart(shape, surface, corners, u / float(parts.x), v / float(parts.y), places);
+        }
     addTarget(surface, boundingSphere(std::array{a, a + u, a + u + v, a + v}));
     noteGlass(shape, surface, scene.primitives.size() - 2);
+}
+
+void ShapeLoader::addRectanglePart(const Reader& shape, const Surface& surface, const std::array<vec3, 4>& corners,
+                                   vec3 u, vec3 v, const std::array<vec2, 4>& places) {
+    const auto& [a, b, c, d] = corners;
+    const uint light = addLight(surface, LIGHT_RECTANGLE, a, u, v, soundArea(u, v), {places[0], places[1], places[3]});
+    addCoordinates(shape, surface, {places[0], places[1], places[2]});
+    addFlat(shape, {a, b, c, surface.material, light, NONE});
+    addCoordinates(shape, surface, {places[0], places[2], places[3]});
+    addFlat(shape, {a, c, d, surface.material, light, NONE});
 }
 
 void ShapeLoader::requireRoom(const Reader& shape) const {
@@ -227,9 +249,20 @@ void ShapeLoader::addFlat(const Reader& shape, const Primitive& triangle) {
     scene.primitives.push_back(triangle);
 }
 
-uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area) {
+/// Of flat lights with the coordinates at a, and at the ends of u and v.
+uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area,
+                           const TexturePlaces& coordinates) {
     if (surface.radiance == vec3{0}) return NONE;
-    scene.lights.push_back({a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 1});
+    Light light{a, u, v, surface.radiance, kind, surface.twoSided ? 1u : 0u, static_cast<float>(area), 1};
+    if (surface.emission != NONE) {
+        const auto& [at, atU, atV] = coordinates;
+        light.radiance = vec3{
+            meanEmission({scene.textured, scene.textured.textures[surface.emission], at, atU - at, atV - at, kind})};
+        if (light.radiance == vec3{0}) return NONE;
+        scene.textured.lights.push_back({surface.emission, at, atU - at, atV - at});
+        light.texture = static_cast<uint>(scene.textured.lights.size());
+    }
+    scene.lights.push_back(light);
     return static_cast<uint>(scene.lights.size() - 1);
 }
 

@@ -4,6 +4,7 @@
 #include "scene/mesh.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
+#include "scene/textures.h"
 #include "scene/transform.h"
 #include "shared_scene.h"
 #include <map>
@@ -25,12 +26,14 @@ class ShapeLoader {
 public:
     struct Surface {
         uint material = 0;
-        vec3 radiance{0};
+        vec3 radiance{0}; // or its factor
         bool twoSided = false;
+        uint emission = NONE; // texture of what it emits
     };
 
     /// `indices` maps names to indices into `scene.materials`.
-    ShapeLoader(Scene& target, const std::map<std::string, uint>& indices) : scene{target}, materials{indices} {}
+    ShapeLoader(Textures& images, const std::map<std::string, uint>& indices)
+        : scene{images.scene}, textures{images}, materials{indices} {}
 
     /// Two places at opposite ends of a shape, in world units; none if the shape is wrong, which add() tells.
     std::vector<glm::dvec3> somePlaces(Reader shape);
@@ -65,13 +68,17 @@ private:
     vec3 place(const Transform& transform, glm::dvec3 point) const;
     void extendBounds(const Reader& shape, vec3 low, vec3 high);
     void addFlat(const Reader& shape, const Primitive& triangle);
-    uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area);
+    uint addLight(const Surface& surface, uint kind, vec3 a, vec3 u, vec3 v, double area,
+                  const TexturePlaces& coordinates = {});
+    void addRectanglePart(const Reader& shape, const Surface& surface, const std::array<vec3, 4>& corners, vec3 u,
+                          vec3 v, const std::array<vec2, 4>& places);
     uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
     void addTarget(const Surface& surface, const Target& target);
     bool isSpecular(const Surface& surface) const;
     void noteGlass(const Reader& shape, const Surface& surface, std::size_t first);
 
     Scene& scene;
+    Textures& textures;
     const std::map<std::string, uint>& materials;
     std::map<std::pair<std::filesystem::path, Smoothness>, Mesh> meshes; // by file, each loaded once
     std::vector<TexturePlaces> coordinates[2]; // of triangles up to the last one that needs some

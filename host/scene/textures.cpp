@@ -69,7 +69,7 @@ uint Textures::read(Reader object, bool isColor, uint channel) {
                channelReader = object.find("channel");
     TexelSpace kind = isColor ? TexelSpace::byFile : TexelSpace::linear;
     if (space) kind = space->choice({"srgb", "linear"}) == 0 ? TexelSpace::srgb : TexelSpace::linear;
-    if (factor) texture.factor = isColor ? factor->color({0, 1e6f}) : vec3{factor->number({0, 1e6f})};
+    if (factor) texture.factor = isColor ? factor->color({0, 1e12f}) : vec3{factor->number({0, 1e12f})};
     if (channelReader) {
         if (isColor) channelReader->fail("found the channel of a colour", "allowed where a number is meant");
         texture.channel = static_cast<uint>(channelReader->choice({"r", "g", "b", "a"}));
@@ -84,7 +84,9 @@ uint Textures::read(Reader object, bool isColor, uint channel) {
     if (transform) readTransform(*transform, texture);
     if (set) texture.set = set->integer(0, 1);
     object.finish();
-    texture.image = image(file, object.path().parent_path() / file.text(), kind);
+    const auto own = given.find(file.text());
+    texture.image = own != given.end() ? image(file, own->first, own->second, kind)
+                                       : image(file, object.path().parent_path() / file.text(), kind);
     return add(texture);
 }
 

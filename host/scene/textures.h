@@ -23,6 +23,10 @@ public:
     /// Whether a value is a texture.
     static bool is(const Reader& value) { return value.isObject(); }
 
+    /// Bytes of an image that texture objects may name in place of a file.
+    void give(const std::string& name, std::string bytes) { given[name] = std::move(bytes); }
+    bool knows(const std::string& name) const { return given.contains(name); }
+
     /// What Material.textures says of a material with these textures: 0 if it has none.
     uint place(const MaterialTextures& textures);
 
@@ -45,6 +49,7 @@ private:
     std::vector<uint> tables() const;
     float greatest(const Texture& texture) const;
 
+    std::map<std::string, std::string> given;
     std::map<std::pair<std::string, TexelSpace>, uint> images; // by name
     std::map<std::string, TexelImage> narrow;                  // of 8 bits, which every space can read
 };
