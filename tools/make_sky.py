@@ -26,7 +26,7 @@ def sky(x, y, z):
     pale = math.exp(-4.5 * max(y, 0.0))
     above = [0.10 + 0.62 * pale + 0.95 * glow, 0.22 + 0.52 * pale + 0.80 * glow, 0.55 + 0.30 * pale + 0.55 * glow]
     ground = min(max(-20 * y, 0.0), 1.0)
-    return [(1 - ground) * a + ground * b for a, b in zip(above, (0.16, 0.14, 0.11))]
+    return [(1 - ground) * a + ground * b for a, b in zip(above, (0.16, 0.14, 0.11), strict=True)]
 
 
 def rgbe(color):
