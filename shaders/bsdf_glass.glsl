@@ -21,7 +21,7 @@ Scattering sampleDispersive(Material m, vec3 d, vec3 h, vec3 n, bool leaving, fl
 
 // Reflection with the probability `fresnel`, else refraction.
 Scattering sampleGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
-    if (isDispersive(m)) return sampleDispersive(m, d, n, n, leaving, u);
+    if (hasDispersion && isDispersive(m)) return sampleDispersive(m, d, n, n, leaving, u);
     float eta = ratioBeyond(m, leaving);
     float cosI = min(1.0, -dot(d, n));
     if (u < fresnelOf(m, eta, cosI)) return reflectAbout(d, n, vec3(1.0));

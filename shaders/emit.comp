@@ -29,14 +29,14 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
                   out vec3 color) {
     LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
     if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
-    bool bare = isDelta(light), beam = isBeam(light);
+    bool bare = hasDeltaLights && isDelta(light), beam = hasSpots && isBeam(light);
     if (bare) point = LightPoint(light.a, abs(light.a), vec3(0.0));
 
     vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
     vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
     if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
-    else if (bare) aim = aimBare(scene, light, point, u);
-    else if (beam) aim = aimBeam(light, point, place, u);
+    else if (hasDeltaLights && bare) aim = aimBare(scene, light, point, u);
+    else if (hasSpots && beam) aim = aimBeam(light, point, place, u);
     else aim = aimAtLit(scene, point, u);
     origin = offsetPoint(point.position, point.magnitude, point.normal);
     if (aim.remote) {
@@ -47,7 +47,7 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
     // The area is flux over pi times radiance.
     if (bare) aim.weight *= 4.0 / light.area;
     else if (beam) aim.weight *= 4.0 * PI * light.u.x * light.u.x / light.area;
-    if (bare || beam) aim.weight *= partOfBeam(light, aim.direction);
+    if ((hasDeltaLights || hasSpots) && (bare || beam)) aim.weight *= partOfBeam(light, aim.direction);
     vec3 radiance = light.radiance;
     if (hasEmissionTextures && light.texture != 0u) radiance = texturedRadiance(scene, light, point.position);
     color = radiance / luminance(light.radiance);
@@ -78,7 +78,7 @@ void main() {
     vec3 color;
     vec3 origin;
     Aim aim;
-    if (isEndless(light)) startAfar(scene, light, numbers, aim, origin, color);
+    if (hasEndless && isEndless(light)) startAfar(scene, light, numbers, aim, origin, color);
     else startOnLight(scene, light, numbers, aim, origin, color);
     float weight = aim.weight;
     if (hasGuide && args.starts != uvec2(0u))

@@ -20,11 +20,11 @@ struct LightView {
 };
 
 LightView viewLight(DeviceScene scene, Light light, vec3 origin, vec2 place) {
-    if (isEndless(light)) {
+    if (hasEndless && isEndless(light)) {
         SkyPoint point = sampleEndless(scene, light, place);
         return LightView(point.w, point.radiance, point.inversePdf, point.w, SHADOW_ENDLESS, true);
     }
-    if (isDelta(light)) {
+    if (hasDeltaLights && isDelta(light)) {
         vec3 toLight = light.a - origin;
         float distance2 = dot(toLight, toLight);
         vec3 w = toLight * inversesqrt(distance2);

@@ -8,8 +8,13 @@
 // Which lobes the materials of a scene have; layered ones have a diffuse lobe and another.
 const bool hasDiffuse = (materialKinds & DIFFUSE_KINDS) != 0u;
 const bool hasSpecular = (materialKinds & SPECULAR_KINDS) != 0u;
+#ifdef PLAIN
+const bool hasGlossy = false;
+const bool hasLayered = false;
+#else
 const bool hasGlossy = (materialKinds & GLOSSY_KINDS) != 0u;
 const bool hasLayered = (materialKinds & LAYERED_KINDS) != 0u;
+#endif
 
 bool isStandard(Material m) { return (materialKinds & 1u << MATERIAL_STANDARD) != 0u && m.kind == MATERIAL_STANDARD; }
 

@@ -206,8 +206,9 @@ bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
 
 // Scattering by any lobe but the diffuse one.
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
-    if (isPassage(m)) return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);
-    if (isGlossy(m)) return scatterGlossy(m, s, d, u);
+    if (hasMedia && isPassage(m))
+        return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);
+    if (hasGlossy && isGlossy(m)) return scatterGlossy(m, s, d, u);
     return scatterDelta(m, s, d, u.x);
 }
 

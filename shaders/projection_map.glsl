@@ -89,12 +89,12 @@ Aim aimBare(DeviceScene scene, Light light, LightPoint point, vec2 u) {
     float distance2 = dot(d, d);
     bool far = hasFarLights != 0u && distance2 > 4.0 * scene.lit.radius * scene.lit.radius;
     float lit = coneHeight(scene.lit.radius, max(distance2, scene.lit.radius * scene.lit.radius));
-    float height = isBeam(light) ? beamOf(light).height : 2.0;
+    float height = hasSpots && isBeam(light) ? beamOf(light).height : 2.0;
     Aim aim = Aim(point.position, uniformSphere(u), 1.0, false);
     if (far && lit < height) {
         aim = aimInCone(scene, scene.lit, point.position, d, distance2, u);
         height = lit;
-    } else if (isBeam(light)) {
+    } else if (hasSpots && isBeam(light)) {
         aim.direction = toWorld(uniformCone(u, height), beamOf(light).axis);
     }
     aim.weight = 0.5 * height;

@@ -35,14 +35,15 @@ bool russianRoulette(inout Path path, vec3 color, float probability, float u) {
 
 uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface surface, Sampler s) {
     vec2 u = sample2(s, 4u * bounce + 5u);
-    vec2 place = isGlossy(material) ? sample2(s, 4u * bounce + 6u) : vec2(0.0);
+    vec2 place = hasGlossy && isGlossy(material) ? sample2(s, 4u * bounce + 6u) : vec2(0.0);
     uint run = specularRun(path.flags);
     Interface at = Interface(path.media, NONE);
     if (hasMedia) at = atInterface(args.scene.at[0], path, surface, material);
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
     uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
     float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
-    vec3 origin = leaveInterface(args.scene.at[0], surface, at, event.direction);
+    vec3 origin =
+        hasTouching ? leaveInterface(args.scene.at[0], surface, at, event.direction) : leave(surface, event.direction);
     path = Path(origin, event.direction, path.throughput * correction, 0.0, surface.primitive,
                 afterSpecular(path.flags), media);
     return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON

@@ -175,7 +175,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     if (hasMedia) at = atInterface(scene, path, surface, material);
     vec2 u = bounceSample(s, 0u);
     vec2 place = vec2(0.0);
-    if (isGlossy(material) && !isPassage(material)) {
+    if (hasGlossy && isGlossy(material) && !isPassage(material)) {
         requestGlossyShadowRay(vertex, scene, path, material, surface, s);
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
@@ -188,7 +188,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     uint flags = afterSpecular(path.flags) | (diffuseCount(path.flags) == 0u ? PATH_EYE_SPECULAR : 0u);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
     if (!(maxComponent(throughput) > 0.0)) return;
-    vec3 origin = leaveInterface(scene, surface, at, event.direction);
+    vec3 origin = hasTouching ? leaveInterface(scene, surface, at, event.direction) : leave(surface, event.direction);
     vertex.path = Path(origin, event.direction, throughput, path.distanceSinceDiffuse, surface.primitive,
                        withPdf(flags, event.pdf), media);
     vertex.queues |= 1u << QUEUE_CONTINUE;

@@ -57,6 +57,10 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
 
 // id, type, name, value when nothing is known of the scene: the general program
 #define FEATURES(X)                                                                                                    \
+    CLASSIC_FEATURES(X)                                                                                                \
+    WORLD_FEATURES(X)
+
+#define CLASSIC_FEATURES(X)                                                                                            \
     X(0, bool, hasTriangles, true)                                                                                     \
     X(1, bool, hasSpheres, true)                                                                                       \
     X(2, bool, hasSmoothNormals, true)                                                                                 \
@@ -88,7 +92,10 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(28, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
     X(29, bool, hasGuide, true)                                                                                        \
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
-    X(31, bool, hasContact, true)                                                                                      \
+    X(31, bool, hasContact, true)
+
+// Those that plain kernels are without, as they are without glossy lobes and without lights that have no area.
+#define WORLD_FEATURES(X)                                                                                              \
     X(32, bool, hasMedia, true)                                                                                        \
     X(33, bool, hasDispersion, true)                                                                                   \
     X(34, bool, hasTouching, true)                                                                                     \
@@ -111,7 +118,12 @@ FEATURES(X)
 FEATURES(X)
 #undef X
 #define X(id, type, name, value) layout(constant_id = id) const type name = value;
-FEATURES(X)
+CLASSIC_FEATURES(X)
+#ifdef PLAIN
+#undef X
+#define X(id, type, name, value) const type name = false;
+#endif
+WORLD_FEATURES(X)
 #undef X
 #endif
 

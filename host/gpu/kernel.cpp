@@ -1,6 +1,7 @@
 /// Pipelines: one shader stage, push constants, specialization constants, nothing else.
 #include "gpu/kernel_handles.h"
 #include "gpu/spirv.h"
+#include "shared_kinds.h"
 #include <array>
 
 namespace vkpm {
@@ -22,11 +23,21 @@ static FeatureWords wordsOf(const Features& features) {
     };
 }
 
+// The kernel's name, or that of its plain form if that has all that is needed.
+static std::string embeddedName(const std::string& name, const Features& f) {
+    bool plain = (f.materialKinds & GLOSSY_KINDS) == 0 && (f.lightKinds & ~AREA_KINDS) == 0;
+#define X(id, type, feature, value) plain = plain && !f.feature;
+    WORLD_FEATURES(X)
+#undef X
+    return plain && isKernel(name + "/plain") ? name + "/plain" : name;
+}
+
 static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name,
-                                                         const FeatureWords& features, std::uint32_t argsBytes) {
+                                                         const std::string& embedded, const FeatureWords& features,
+                                                         std::uint32_t argsBytes) {
     auto handles = std::make_shared<RawKernel::Handles>();
     handles->name = name;
-    const auto words = findSpirv(name);
+    const auto words = findSpirv(embedded);
     std::array<vk::SpecializationMapEntry, featureIds.size()> entries;
     for (std::uint32_t i = 0; i < entries.size(); i++)
         entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
@@ -64,11 +75,12 @@ static void warmUp(Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Han
 
 RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {
     const FeatureWords words = wordsOf(features);
+    const std::string embedded = embeddedName(name, features);
     const std::string featureBytes(reinterpret_cast<const char*>(words.data()), sizeof(words));
-    std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(name).data(), featureBytes}];
+    std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(embedded).data(), featureBytes}];
     handles = known.lock();
     if (handles) return;
-    known = handles = compile(gpu.handles->device, name, words, argsBytes);
+    known = handles = compile(gpu.handles->device, name, embedded, words, argsBytes);
     if (gpu.compilesAhead) warmUp(*gpu.handles, handles, argsBytes);
     gpu.handles->recent.push_back(handles);
     if (gpu.handles->recent.size() > keptKernels) gpu.handles->recent.pop_front();

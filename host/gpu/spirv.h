@@ -19,7 +19,8 @@ struct SpirvRegistration {
 
 /// Whether there is a kernel of this name.
 bool isKernel(std::string_view name);
-/// The SPIR-V words of a kernel; the name must be that of a .comp file.
+/// The SPIR-V words of a kernel; the name must be that of a .comp file, and "/plain" after it for what it is in plain
+/// scenes, see WORLD_FEATURES in shared.h.
 std::span<const std::uint32_t> findSpirv(std::string_view name);
 
 } // namespace vkpm
