@@ -208,7 +208,8 @@ TEST(Gltf, MaterialsAreStandardOnesOrGlass) {
     m = materialOf(glass);
     EXPECT_EQ(m.kind, MATERIAL_GLASS);
     EXPECT_EQ(m.ior, 1.25f);
-    EXPECT_EQ(materialOf(glass, {{"glass", "thin"}}).ior, 1.0f);
+    EXPECT_EQ(materialOf(glass, {{"glass", "thin"}}).kind, MATERIAL_THIN_GLASS);
+    EXPECT_EQ(materialOf(glass, {{"glass", "thin"}}).ior, 1.25f);
     m = materialOf("{}"); // a metal of roughness 1
     EXPECT_EQ(m.kind, MATERIAL_STANDARD);
     EXPECT_EQ(m.metallic, 1);

@@ -38,7 +38,10 @@ public:
         specular = numberOr(specularOf, "specularFactor", 1, fraction);
         specularColor = colorOr(specularOf, "specularColorFactor", notNegative);
         thickness = numberOr(volume, "thicknessFactor", 0, notNegative);
-        attenuates = thickness > 0 && colorOr(volume, "attenuationColor", fraction) != vec3{1};
+        attenuationColor = colorOr(volume, "attenuationColor", fraction);
+        attenuationDistance = numberOr(volume, "attenuationDistance", 0, positive);
+        auto dispersionOf = extension("KHR_materials_dispersion");
+        dispersion = numberOr(dispersionOf, "dispersion", 0, notNegative);
         if (const auto info = pbr ? pbr->find("baseColorTexture") : std::nullopt)
             baseTexture = textures.read(*info, true);
         if (const auto info = pbr ? pbr->find("metallicRoughnessTexture") : std::nullopt)
@@ -80,24 +83,31 @@ public:
     }
 
     json transparent(GltfGlass glass) {
-        if (attenuates) lose("what glass absorbs on the way through is left out");
         const bool isThin = glass == GltfGlass::thin && thickness == 0;
-        if (isThin) lose("thin glass lets light straight through, and reflects none");
-        else if (thickness == 0 && glass == GltfGlass::automatic)
+        if (!isThin && thickness == 0 && glass == GltfGlass::automatic)
             lose("glass without a thickness (KHR_materials_volume) is taken for solid; \"glass\": \"thin\" of "
                  "\"import\" "
                  "takes it for panes");
         if (!(ior >= 1e-3f && ior <= 1e3f)) lose("an index of refraction beyond 0.001 to 1000 becomes 1.5"), ior = 1.5f;
-        json result{{"type", "glass"}, {"ior", isThin ? 1.0f : ior}, {"tint", listOf(base)}};
+        json result{{"type", "glass"}, {"ior", ior}, {"tint", listOf(base)}};
         if (baseTexture) // of which a standard material may be made
             result = {{"type", "standard"},
                       {"metallic", 0},
                       {"transmission", 1},
-                      {"ior", isThin ? 1.0f : ior},
+                      {"ior", ior},
                       {"baseColor", withFactor(baseTexture, listOf(base))}};
         result["roughness"] = withFactor(roughnessTexture, roughness);
+        fill(result, isThin);
         if (result["type"] == "glass" && roughnessTexture) result["roughness"]["channel"] = "g";
         return result;
+    }
+
+    /// Adds what glass is filled with, or that it is thin.
+    void fill(json& glass, bool isThin) const {
+        if (isThin) glass["thin"] = true;
+        if (thickness > 0 && attenuationDistance > 0 && attenuationColor != vec3{1})
+            glass["attenuation"] = {{"color", listOf(attenuationColor)}, {"distance", attenuationDistance}};
+        if (thickness > 0 && dispersion > 0) glass["abbe"] = std::max(1.0f, 20 / dispersion);
     }
 
     /// Adds what the material stops of what meets it.
@@ -164,8 +174,7 @@ private:
             if (auto object = extension(fmt::format("KHR_materials_{}", name)); object && object->find(texture))
                 lose(fmt::format("\"{}\" is left out", texture));
         if (transmission > 0 && transmission < 0.5f) lose("a transmission below 0.5 is left out");
-        for (const char* name :
-             {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "iridescence", "sheen", "unlit"})
+        for (const char* name : {"anisotropy", "clearcoat", "diffuse_transmission", "iridescence", "sheen", "unlit"})
             if (extension(fmt::format("KHR_materials_{}", name)))
                 lose(fmt::format("KHR_materials_{} is left out", name));
     }
@@ -181,7 +190,8 @@ private:
     vec3 base{1};
     vec3 specularColor{1};
     float metallic = 1, roughness = 1, transmission = 0, ior = 1.5f, thickness = 0, specular = 1;
-    bool attenuates = false;
+    vec3 attenuationColor{1};
+    float attenuationDistance = 0, dispersion = 0;
 };
 
 } // namespace
