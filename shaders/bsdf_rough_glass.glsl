@@ -18,16 +18,13 @@ float reflectionProbability(Material m, bool leaving, float cosine) {
 // Density of reflections alone; that of refractions is left out, as no light sample goes beyond the interface.
 float pdfRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
-    float z = dot(wo, n);
-    return reflectionProbability(m, leaving, dot(wo, h)) * ggxDensity(m.alpha, n, h) /
-           (2.0 * (z + stretched(m.alpha, z)));
+    return reflectionProbability(m, leaving, dot(wo, h)) * visibleFacetPdf(m.alpha, n, h, wo);
 }
 
 // Of reflections.
 vec3 evaluateRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
-    return roughFresnel(m, leaving, dot(wo, h)) *
-           (ggxDensity(m.alpha, n, h) * ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)));
+    return roughFresnel(m, leaving, dot(wo, h)) * ggxValue(m.alpha, n, h, wo, wi);
 }
 
 // Reflection with the probability of Fresnel's reflectance at the facet, else refraction.

@@ -8,9 +8,7 @@
 #include "shared_scene.h"
 
 vec3 reflectanceStandard(Material m, float cosine) {
-    vec3 normalIncidence = mix(m.normalIncidence, m.color, m.metallic);
-    float x = 1.0 - min(1.0, cosine), x2 = x * x;
-    return normalIncidence + (mix(m.grazing, 1.0, m.metallic) - normalIncidence) * (x2 * x2 * x);
+    return schlick(mix(m.normalIncidence, m.color, m.metallic), mix(m.grazing, 1.0, m.metallic), cosine);
 }
 
 // The cosine of two directions with the one half-way between them.

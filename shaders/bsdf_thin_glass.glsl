@@ -21,14 +21,12 @@ Scattering sampleThinGlass(Material m, vec3 d, vec3 n, bool leaving, float u) {
 // Density of reflections alone, as that of rough glass.
 float pdfRoughThinGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
-    float z = dot(wo, n);
-    return sheetReflectance(m, dot(wo, h)) * ggxDensity(m.alpha, n, h) / (2.0 * (z + stretched(m.alpha, z)));
+    return sheetReflectance(m, dot(wo, h)) * visibleFacetPdf(m.alpha, n, h, wo);
 }
 
 vec3 evaluateRoughThinGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
-    return vec3(sheetReflectance(m, dot(wo, h)) * ggxDensity(m.alpha, n, h) *
-                ggxVisibility(m.alpha, dot(wo, n), dot(wi, n)));
+    return vec3(sheetReflectance(m, dot(wo, h)) * ggxValue(m.alpha, n, h, wo, wi));
 }
 
 // What goes through is the reflection's mirror image.

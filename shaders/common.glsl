@@ -19,13 +19,30 @@ uint groupIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupI
 
 uint threadIndex() { return groupIndex() * GROUP + gl_LocalInvocationIndex; }
 
+// Of `count` numbers that do not fall, `stride` apart from `first` on, which is the first above u; the last if none is.
+uint firstAbove(uvec2 numbers, uint first, uint stride, uint count, float u) {
+    uint low = 0u;
+    uint high = count - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (u < floatPtr(numbers).at[first + stride * middle]) high = middle;
+        else low = middle + 1u;
+    }
+    return low;
+}
+
 float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-// The direction of u x v. Scaled by a power of two first, which changes no bit, the squares of edges of any length stay
+// A power of two, times which edges of any length are about as long as 1: no bit changes, and their squares stay
 // numbers.
-vec3 directionOfCross(vec3 u, vec3 v) {
+float unitScale(vec3 u, vec3 v) {
     float longest = maxComponent(max(abs(u), abs(v)));
-    float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u));
+    return uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u));
+}
+
+// The direction of u x v.
+vec3 directionOfCross(vec3 u, vec3 v) {
+    float scale = unitScale(u, v);
     return normalize(cross(scale * u, scale * v));
 }
 

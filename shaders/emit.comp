@@ -27,12 +27,12 @@ uint mediaOfLight(DeviceScene scene, uint light) {
 // other than cos / pi, or other than uniform from a point.
 void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIONS], out Aim aim, out vec3 origin,
                   out vec3 color) {
-    LightPoint point = sampleEmissionPoint(light, vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]));
+    vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
+    LightPoint point = sampleEmissionPoint(light, place);
     if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
     bool bare = hasDeltaLights && isDelta(light), beam = hasSpots && isBeam(light);
     if (bare) point = LightPoint(light.a, abs(light.a), vec3(0.0));
 
-    vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
     vec2 u = vec2(numbers[PRIMARY_DIRECTION], numbers[PRIMARY_DIRECTION + 1u]);
     if (args.caustic != 0u) aim = aimAtTargets(scene, point, u, numbers[PRIMARY_TARGET]);
     else if (hasDeltaLights && bare) aim = aimBare(scene, light, point, u);

@@ -8,12 +8,14 @@
 #include "sampling.glsl"
 #include "scattering.glsl"
 
-// Schlick's reflectance (1994, eq. 15) of a metal or a coat, from that at normal incidence.
-vec3 schlick(vec3 normalIncidence, float cosine) {
+// Schlick's reflectance (1994, eq. 15) of a metal or a coat, from those at normal and at grazing incidence.
+vec3 schlick(vec3 normalIncidence, float grazing, float cosine) {
     float x = 1.0 - min(1.0, cosine);
     float x2 = x * x;
-    return normalIncidence + (1.0 - normalIncidence) * (x2 * x2 * x);
+    return normalIncidence + (grazing - normalIncidence) * (x2 * x2 * x);
 }
+
+vec3 schlick(vec3 normalIncidence, float cosine) { return schlick(normalIncidence, 1.0, cosine); }
 
 // Density of microfacet normals h per area (Walter et al. 2007, eq. 33). The sine comes from a cross product: written
 // by the cosine, the peak of a narrow lobe would be rounded away.
@@ -47,6 +49,17 @@ float ggxVisibility(float alpha, float zo, float zi) {
     return zi / (2.0 * (zi * stretched(alpha, zo) + zo * stretched(alpha, zi)));
 }
 
+// The value of facets that reflect all light, times the cosine of wi; h is half-way between wo and wi.
+float ggxValue(float alpha, vec3 n, vec3 h, vec3 wo, vec3 wi) {
+    return ggxDensity(alpha, n, h) * ggxVisibility(alpha, dot(wo, n), dot(wi, n));
+}
+
+// Density over solid angle of reflections at all facets that wo sees.
+float visibleFacetPdf(float alpha, vec3 n, vec3 h, vec3 wo) {
+    float z = dot(wo, n);
+    return ggxDensity(alpha, n, h) / (2.0 * (z + stretched(alpha, z)));
+}
+
 // A facet's normal in proportion to what wo sees of it, from the part k of the cap of visible normals (Dupuy & Benyoub
 // 2023): 1 for all of them.
 vec3 sampleFacet(float alpha, vec3 n, vec3 wo, float k, vec2 u) {
@@ -70,8 +83,7 @@ Scattering sampleGgx(float alpha, vec3 normalIncidence, vec3 d, vec3 n, vec2 u) 
 // The value of that lobe, times the cosine of wi.
 vec3 evaluateGgx(float alpha, vec3 normalIncidence, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
-    return ggxDensity(alpha, n, h) * ggxVisibility(alpha, dot(wo, n), dot(wi, n)) *
-           schlick(normalIncidence, dot(wo, h));
+    return ggxValue(alpha, n, h, wo, wi) * schlick(normalIncidence, dot(wo, h));
 }
 
 // Correlated G2 over G1 of wo, by the cosines of both directions, whatever their sides.

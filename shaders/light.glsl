@@ -33,14 +33,7 @@ LightSample sampleByArea(Light light, LightPoint point, vec3 origin) {
 // The light whose part of the unit interval holds u.
 uint chooseLight(DeviceScene scene, uvec2 cdf, float u) {
     if (!hasManyLights) return 0u;
-    uint low = 0u;
-    uint high = scene.lightCount - 1u;
-    while (low < high) {
-        uint middle = (low + high) / 2u;
-        if (u < floatPtr(cdf).at[middle]) high = middle;
-        else low = middle + 1u;
-    }
-    return low;
+    return firstAbove(cdf, 0u, 1u, scene.lightCount, u);
 }
 
 // The probability of being chosen.

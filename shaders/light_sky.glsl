@@ -38,24 +38,14 @@ Part partOf(float u, float low, float high, uint index) {
 }
 
 Part rowAt(Sky sky, float u) {
-    uint low = 0u, high = sky.height - 1u;
-    while (low < high) {
-        uint middle = (low + high) / 2u;
-        if (u < floatPtr(sky.rows).at[middle]) high = middle;
-        else low = middle + 1u;
-    }
-    return partOf(u, low > 0u ? floatPtr(sky.rows).at[low - 1u] : 0.0, floatPtr(sky.rows).at[low], low);
+    uint row = firstAbove(sky.rows, 0u, 1u, sky.height, u);
+    return partOf(u, row > 0u ? floatPtr(sky.rows).at[row - 1u] : 0.0, floatPtr(sky.rows).at[row], row);
 }
 
 Part columnAt(Sky sky, uint row, float u) {
-    uint first = row * sky.width, low = 0u, high = sky.width - 1u;
-    while (low < high) {
-        uint middle = (low + high) / 2u;
-        if (u < SkyTexelPtr(sky.texels).at[first + middle].cdf) high = middle;
-        else low = middle + 1u;
-    }
-    return partOf(u, low > 0u ? SkyTexelPtr(sky.texels).at[first + low - 1u].cdf : 0.0,
-                  SkyTexelPtr(sky.texels).at[first + low].cdf, low);
+    uint first = row * sky.width, column = firstAbove(sky.texels, 4u * first + 3u, 4u, sky.width, u); // by SkyTexel.cdf
+    return partOf(u, column > 0u ? SkyTexelPtr(sky.texels).at[first + column - 1u].cdf : 0.0,
+                  SkyTexelPtr(sky.texels).at[first + column].cdf, column);
 }
 
 // The direction at a place of a texel, both from 0 to 1; from the nearer pole, where a cosine has no digits.

@@ -204,7 +204,7 @@ Scattering scatterDelta(Material m, Surface s, vec3 d, float u) {
 // Whether light goes straight through a surface of glass, see atInterface in media.glsl.
 bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
 
-// Scattering by any lobe but the diffuse one.
+// Scattering by any lobe but the diffuse one. (The constants beside the questions are what plain kernels are cut by.)
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
     if (hasMedia && isPassage(m))
         return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);

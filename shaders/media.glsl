@@ -11,16 +11,21 @@
 
 const uint MEDIUM_MASK = MAX_MEDIA - 1u;
 
-uvec4 listOfMedia(uint media) { return uvec4(media, media >> 8, media >> 16, media >> 24) & MEDIUM_MASK; }
+const uvec4 MEDIUM_SHIFTS = uvec4(0u, MEDIUM_BITS, 2u * MEDIUM_BITS, 3u * MEDIUM_BITS);
 
-uint fromList(uvec4 list) { return list.x | list.y << 8 | list.z << 16 | list.w << 24; }
+uvec4 listOfMedia(uint media) { return uvec4(media) >> MEDIUM_SHIFTS & MEDIUM_MASK; }
+
+uint fromList(uvec4 list) {
+    list <<= MEDIUM_SHIFTS;
+    return list.x | list.y | list.z | list.w;
+}
 
 // The one that counts.
 uint firstMedium(uint media) { return media & MEDIUM_MASK; }
 
 Medium mediumOf(DeviceScene scene, uint index) { return MediumPtr(scene.media).at[index]; }
 
-uint priorityOf(DeviceScene scene, uint index) { return MediumPtr(scene.media).at[index].priority; }
+uint priorityOf(DeviceScene scene, uint index) { return mediumOf(scene, index).priority; }
 
 // The media after one more was entered: it goes before those of its priority and lower. Of five the last is forgotten.
 uint withMedium(DeviceScene scene, uint media, uint entered) {

@@ -6,6 +6,7 @@
 #include "common.glsl"
 #include "hash.h"
 #include "intersect.glsl"
+#include "random.glsl"
 #include "texture.glsl"
 
 // The part that is stopped at a point.
@@ -15,7 +16,7 @@ float opacityAt(DeviceScene scene, Material m, uint primitive, vec2 weights, vec
     if (slot != NONE) {
         Texture t = TexturePtr(scene.textures).at[slot];
         vec2 coordinates[2] = coordinatesAt(scene, primitive, weights, position);
-        opacity = t.factor.x * textureAt(scene, t, t.set == 0u ? coordinates[0] : coordinates[1])[t.channel];
+        opacity = t.factor.x * textureAt(scene, t, coordinates)[t.channel];
     }
     return m.cutoff > 0.0 ? float(opacity >= m.cutoff) : clamp(opacity, 0.0, 1.0);
 }
@@ -26,8 +27,7 @@ bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weigh
     if (m.seeThrough == 0.0) return false;
     uint bits = hash(floatBitsToUint(ray.origin)) ^ hash(floatBitsToUint(ray.direction) + uvec3(0x9e3779b9u));
     bits = hash(bits ^ hash(2u * primitive + uint(again)));
-    return float(bits >> 8) * (1.0 / 16777216.0) >=
-           opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
+    return unitFloat(bits) >= opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
 }
 
 #endif

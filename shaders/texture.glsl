@@ -60,6 +60,11 @@ vec4 textureAt(DeviceScene scene, Texture t, vec2 coordinates) {
     return low + r * (high - low);
 }
 
+// The same by the set of coordinates that the texture has.
+vec4 textureAt(DeviceScene scene, Texture t, vec2 sets[2]) {
+    return textureAt(scene, t, t.set == 0u ? sets[0] : sets[1]);
+}
+
 vec2 mixed(TexturePlaces c, vec2 weights) { return c.a + weights.x * (c.b - c.a) + weights.y * (c.c - c.a); }
 
 // Of a point on a sphere, by its direction from the centre: the middle of the image lies towards +z, its top at +y.
@@ -82,8 +87,7 @@ vec2[2] coordinatesAt(DeviceScene scene, uint primitive, vec2 weights, vec3 posi
 
 // The weights x and y of a point d = x u + y v, or of one next to the plane of u and v, within 0 to 1.
 vec2 weightsOf(vec3 u, vec3 v, vec3 d) {
-    float longest = maxComponent(max(abs(u), abs(v)));
-    float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(longest) & 0x7f800000u)); // a power of two
+    float scale = unitScale(u, v);
     u *= scale;
     v *= scale;
     d *= scale;
@@ -130,7 +134,7 @@ Material texturedMaterial(DeviceScene scene, Material m, uint first, uint primit
         uint index = i == SLOT_COLOR ? slots.color : i == SLOT_METALLIC ? slots.metallic : slots.roughness;
         if (index == NONE) continue;
         Texture t = TexturePtr(scene.textures).at[index];
-        vec4 value = textureAt(scene, t, t.set == 0u ? coordinates[0] : coordinates[1]);
+        vec4 value = textureAt(scene, t, coordinates);
         float number = clamp(t.factor.x * value[t.channel], 0.0, 1.0);
         if (i == SLOT_COLOR) m.color = min(t.factor * value.rgb, 1.0);
         else if (i == SLOT_METALLIC) m.metallic = number;

@@ -26,6 +26,15 @@ vec3 direction(double z, double turns) {
     return vec3{glm::dvec3{r * std::cos(2 * pi * turns), r * std::sin(2 * pi * turns), z}};
 }
 
+/// Samples of light that comes at a cosine, by numbers on a grid.
+void addGrid(std::vector<GlossyCase>& xs, const Material& material, double cosine, int side) {
+    for (int i = 0; i < side * side; i++)
+        xs.push_back({material,
+                      direction(cosine, 0.1),
+                      {0, 0, 1},
+                      {(float(i % side) + 0.5f) / float(side), (float(i / side) + 0.5f) / float(side)}});
+}
+
 double albedo(const std::vector<float>& row, double cosine) {
     const double x = std::sqrt(cosine) * REST_STEPS;
     const auto i = std::min(static_cast<std::size_t>(x), std::size_t{REST_STEPS - 1});
@@ -56,12 +65,7 @@ TEST(Glossy, SamplesHaveTheWeightsOfTheirDensity) {
             for (const auto& [material, row] :
                  {std::pair{metal(alpha), restRow(alpha, 1)}, std::pair{plastic(alpha), restRow(alpha, 0.04)}}) {
                 std::vector<GlossyCase> xs;
-                const int side = 128;
-                for (int i = 0; i < side * side; i++)
-                    xs.push_back({material,
-                                  direction(cosine, 0.1),
-                                  {0, 0, 1},
-                                  {(float(i % side) + 0.5f) / side, (float(i / side) + 0.5f) / side}});
+                addGrid(xs, material, cosine, 128);
                 const auto samples = map<GlossyValues>("glossy", xs);
                 for (std::size_t i = 0; i < xs.size(); i++) xs[i].wi = samples[i].direction;
                 const auto values = map<GlossyValues>("glossy", xs);
@@ -90,12 +94,7 @@ TEST(Glossy, StandardMaterialsLoseAndGainNothing) {
                                    red = standard(alpha, metallic, {1, 0.5f, 0}, {0.5f, 0.04f, 0}, grazing);
                     std::vector<GlossyCase> xs;
                     const int side = 64;
-                    for (const Material& material : {white, red})
-                        for (int i = 0; i < side * side; i++)
-                            xs.push_back({material,
-                                          direction(cosine, 0.1),
-                                          {0, 0, 1},
-                                          {(float(i % side) + 0.5f) / side, (float(i / side) + 0.5f) / side}});
+                    for (const Material& material : {white, red}) addGrid(xs, material, cosine, side);
                     const auto samples = map<GlossyValues>("glossy", xs);
                     const std::vector<vec3> diffuse = map<vec3>(
                         "diffuse_albedo", std::vector<GlossyCase>{xs.front(), xs.back()}, {}, device.context());

@@ -1,5 +1,6 @@
 /// Media within glass: what is left of light on its way, what counts where glass overlaps, and colours apart.
 #include "render_support.h"
+#include "scene/identity.h"
 #include "scene/media.h"
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
@@ -295,6 +296,25 @@ TEST(Media, AFifthMediumIsCounted) {
         renderer.renderPass(0);
         EXPECT_EQ(renderer.mediaOverflows() > 0, loaded == &six);
     }
+}
+
+// What fills glass is a part of what a scene is, for those who go on with a render.
+TEST(Media, CountForTheIdentity) {
+    json scene = smallScene();
+    scene["materials"]["water"]["priority"] = 1;
+    scene["shapes"][0]["material"] = "water";
+    const auto hashOf = [](const json& with) {
+        const Scene loaded = loadJson(with);
+        return identityOf(loaded, loaded.settings).at("sceneHash");
+    };
+    const std::string hash = hashOf(scene);
+    EXPECT_EQ(hashOf(scene), hash);
+    json other = scene;
+    other["materials"]["water"]["abbe"] = 30;
+    EXPECT_NE(hashOf(other), hash);
+    other = scene;
+    other["materials"]["water"]["attenuation"] = {{"color", 0.5}, {"distance", 1}};
+    EXPECT_NE(hashOf(other), hash);
 }
 
 TEST(Media, RefusesWhatMakesNoSense) {

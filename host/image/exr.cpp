@@ -61,7 +61,8 @@ Raster read(std::string_view bytes) {
     const Imath::Box2i window = file.header(colors.part).dataWindow();
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1,
                        height = std::int64_t(window.max.y) - window.min.y + 1;
-    requireTexels(std::uint64_t(std::max<std::int64_t>(width, 0)), std::uint64_t(std::max<std::int64_t>(height, 0)));
+    requireTexels(std::uint64_t(std::max<std::int64_t>(width, 0)), std::uint64_t(std::max<std::int64_t>(height, 0)),
+                  sizeof(vec3), maxTexels);
     Raster image{static_cast<uint>(width), static_cast<uint>(height),
                  std::vector<vec3>(std::size_t(width) * std::size_t(height))};
     const std::ptrdiff_t texel = sizeof(vec3), row = texel * std::ptrdiff_t(width);

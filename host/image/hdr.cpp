@@ -121,7 +121,7 @@ Raster decodeHdr(std::string_view all) try {
     HdrBytes bytes(all);
     const double exposure = readHeader(bytes);
     const Resolution size = readResolution(bytes.line());
-    requireTexels(size.width, size.height);
+    requireTexels(size.width, size.height, sizeof(vec3), maxTexels);
     if (all.size() < size.height * 4) throw InputError("the file ends early");
     Raster image{static_cast<uint>(size.width), static_cast<uint>(size.height), {}};
     image.texels.resize(size.width * size.height);

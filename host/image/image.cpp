@@ -7,11 +7,11 @@
 
 namespace vkpm {
 
-void requireTexels(std::uint64_t width, std::uint64_t height) {
-    if (width < 1 || height < 1 || width > maxTexels / height)
-        throw InputError(fmt::format("found {} x {} texels, {:.3g} MiB of floats; allowed are 1 to {} texels, {} MiB",
-                                     width, height, 12.0 * double(width) * double(height) / 1048576, maxTexels,
-                                     12 * maxTexels >> 20));
+void requireTexels(std::uint64_t width, std::uint64_t height, std::uint64_t bytesPerTexel, std::uint64_t most) {
+    if (width < 1 || height < 1 || width > most / height)
+        throw InputError(fmt::format("found {} x {} texels, {:.3g} MiB; allowed are 1 to {}, {} MiB", width, height,
+                                     double(bytesPerTexel) * double(width) * double(height) / 1048576, most,
+                                     bytesPerTexel * most >> 20));
 }
 
 std::string badTexels(const Raster& image) {

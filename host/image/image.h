@@ -17,8 +17,8 @@ struct Raster {
 const std::uint64_t maxTexels = 1ull << 26;     // of an image: 768 MiB of floats
 const std::uint64_t maxImageBytes = 2ull << 30; // of its file
 
-/// Throws InputError, without a file's name, unless an image of this size is allowed.
-void requireTexels(std::uint64_t width, std::uint64_t height);
+/// Throws InputError, without a file's name, unless an image has 1 to `most` texels, each of so many bytes.
+void requireTexels(std::uint64_t width, std::uint64_t height, std::uint64_t bytesPerTexel, std::uint64_t most);
 
 /// How many texels have a component that is negative or not finite, and the first of them, in words; empty if none has.
 std::string badTexels(const Raster& image);

@@ -1,5 +1,6 @@
 /// JPEG images from memory, by libjpeg-turbo.
 #include "error.h"
+#include "image/image.h"
 #include "image/picture.h"
 #include <csetjmp>
 #include <cstdio>
@@ -83,7 +84,7 @@ Picture decodeJpeg(std::string_view bytes) {
     };
     check(readHeader(read, bytes));
     const uint width = read.jpeg.image_width, height = read.jpeg.image_height;
-    requireTexels(width, height, 4);
+    requireTexels(width, height, 4, maxPictureTexels);
     if (read.jpeg.num_components == 4)
         throw InputError("found a JPEG image of four inks; allowed are grey and red, green and blue");
     // Each block of 64 texels takes a bit at least, so that what is claimed is there before memory is taken for it.

@@ -6,14 +6,6 @@
 
 namespace vkpm {
 
-void requireTexels(std::uint64_t width, std::uint64_t height, std::uint64_t bytesPerTexel) {
-    const std::uint64_t most = 4 * maxPictureTexels / bytesPerTexel;
-    if (width < 1 || height < 1 || width > most / height)
-        throw InputError(fmt::format("found {} x {} texels, {:.3g} MiB; allowed are 1 to {}, {} MiB", width, height,
-                                     double(bytesPerTexel) * double(width) * double(height) / 1048576, most,
-                                     4 * maxPictureTexels >> 20));
-}
-
 static Picture pictureOf(const Raster& raster) {
     if (const std::string bad = badTexels(raster); !bad.empty()) throw InputError(bad);
     Picture picture{.width = raster.width, .height = raster.height, .linear = true};

@@ -16,9 +16,6 @@ struct Picture {
 
 const std::uint64_t maxPictureTexels = 1ull << 28; // of an image of 8 bits: 1 GiB; of floats a quarter
 
-/// Throws InputError, without a file's name, unless an image of this size is allowed whose texels take so many bytes.
-void requireTexels(std::uint64_t width, std::uint64_t height, std::uint64_t bytesPerTexel);
-
 /// The image of a PNG, JPEG, OpenEXR or Radiance file, which its first bytes say. Colour profiles are left aside.
 /// Throws InputError, without a file's name.
 Picture decodePicture(std::string_view bytes);

@@ -1,5 +1,6 @@
 /// PNG images from memory, by libpng.
 #include "error.h"
+#include "image/image.h"
 #include "image/picture.h"
 #include <bit>
 #include <csetjmp>
@@ -105,7 +106,8 @@ Picture decodePng(std::string_view bytes) {
     if (!read.info) throw std::bad_alloc();
     check(readHeader(read));
     const std::uint64_t bits = png_get_bit_depth(read.png, read.info) * png_get_channels(read.png, read.info);
-    requireTexels(read.width, read.height, bits >= 16 && png_get_bit_depth(read.png, read.info) == 16 ? 16 : 4);
+    const std::uint64_t bytesPerTexel = png_get_bit_depth(read.png, read.info) == 16 ? 16 : 4;
+    requireTexels(read.width, read.height, bytesPerTexel, 4 * maxPictureTexels / bytesPerTexel);
     // Nothing is packed to less than a part in 1032, so that what is claimed is there before memory is taken for it.
     if (std::uint64_t{read.width} * read.height * bits / 8 / 1032 > bytes.size())
         throw InputError("cannot be read as a PNG image: the file ends early");

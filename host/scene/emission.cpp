@@ -61,12 +61,6 @@ dvec3 meanOfFlat(const EmissionPart& part) {
     return count > 0 ? sum / count : emissionAt(part, part.corner + (part.u + part.v) / 3.0);
 }
 
-uint within(std::int64_t i, std::int64_t size, uint wrap) {
-    if (wrap == WRAP_CLAMP) return uint(std::clamp<std::int64_t>(i, 0, size - 1));
-    const std::int64_t period = wrap == WRAP_MIRROR ? 2 * size : size, k = (i % period + period) % period;
-    return uint(std::min(k, 2 * size - 1 - k));
-}
-
 /// The brightest of all texels that a part may show, by the box about it.
 double greatest(const EmissionPart& part) {
     const TexelImage& image = part.arrays.images[part.texture.image];
@@ -83,8 +77,8 @@ double greatest(const EmissionPart& part) {
     double most = 0;
     for (auto y = std::int64_t(std::floor(low.y)) - 1; y <= std::int64_t(std::floor(high.y)) + 1; y++)
         for (auto x = std::int64_t(std::floor(low.x)) - 1; x <= std::int64_t(std::floor(high.x)) + 1; x++) {
-            const dvec3 texel{texelOf(part.arrays, image, within(x, image.width, part.texture.wrapU),
-                                      within(y, image.height, part.texture.wrapV))};
+            const dvec3 texel{texelOf(part.arrays, image, wrapped(x, image.width, part.texture.wrapU),
+                                      wrapped(y, image.height, part.texture.wrapV))};
             most = std::max(most, luminance(dvec3{part.texture.factor} * texel));
         }
     return most;

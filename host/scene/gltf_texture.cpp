@@ -13,14 +13,8 @@ enum : uint { NEAREST = 9728, CLAMP = 33071, MIRRORED = 33648 };
 /// glTF's coordinates go down from the upper edge, those of scenes up from the lower one.
 json transformOf(Reader transform) {
     glm::dvec2 offset{0}, scale{1};
-    const auto pair = [&](const char* key, glm::dvec2& to) {
-        if (const auto value = transform.find(key)) {
-            const auto numbers = value->elements(2, 2, "an array of 2 numbers");
-            to = {numbers[0].number({-1e5f, 1e5f}), numbers[1].number({-1e5f, 1e5f})};
-        }
-    };
-    pair("offset", offset);
-    pair("scale", scale);
+    if (const auto value = transform.find("offset")) offset = value->pair({-1e5f, 1e5f});
+    if (const auto value = transform.find("scale")) scale = value->pair({-1e5f, 1e5f});
     const auto rotation = transform.find("rotation");
     const double angle = rotation ? rotation->precise() : 0, s = std::sin(angle), c = std::cos(angle);
     return {{"scale", {scale.x, scale.y}},

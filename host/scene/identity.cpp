@@ -40,6 +40,7 @@ std::string sceneHash(const Scene& scene) {
         hash.add(scene.skyTexels);
         hash.addWords(scene.sky);
     }
+    if (!scene.media.empty()) hash.add(scene.media);
     hash.add(scene.targets);
     const View& v = scene.view;
     const struct {

@@ -129,9 +129,10 @@ void findMedia(Scene& scene, const std::filesystem::path& file) {
 }
 
 MediaLocator::MediaLocator(const Scene& scene) : media(scene.media.size()) {
+    if (media.empty()) return;
     for (uint i = 0; i < media.size(); i++) media[i].priority = scene.media[i].priority;
     for (const GlassShape& shape : scene.glass)
-        for (std::size_t i = shape.first; i < shape.end && !media.empty(); i++) {
+        for (std::size_t i = shape.first; i < shape.end; i++) {
             const Primitive& p = scene.primitives[i];
             const Material& material = scene.materials[p.material];
             const bool isSphere = i >= scene.triangleCount;

@@ -125,6 +125,11 @@ uint Reader::integer(uint low, uint high) const {
     return static_cast<uint>(wide);
 }
 
+glm::dvec2 Reader::pair(Range range) const {
+    const std::vector<Reader> parts = elements(2, 2, "an array of 2 numbers");
+    return {parts[0].number(range), parts[1].number(range)};
+}
+
 vec3 Reader::vector(Range range) const {
     const std::vector<Reader> parts = elements(3, 3, "an array of 3 numbers, [x, y, z]");
     return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};

@@ -50,6 +50,7 @@ public:
     float number(Range range = anyNumber) const;
     double precise() const; // a number within the range of float, in double precision
     uint integer(uint low, uint high) const;
+    glm::dvec2 pair(Range range) const;
     vec3 vector(Range range = anyNumber) const;
     glm::dvec3 place() const;      // three numbers in double precision
     vec3 color(Range range) const; // three numbers, or one for a grey

@@ -18,14 +18,8 @@ double linearOfSrgb(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 
 /// Coordinates of a scene file go up from the lower edge of an image, whose rows go down.
 void readTransform(Reader transform, Texture& texture) {
     glm::dvec2 offset{0}, scale{1};
-    const auto pair = [&](std::string_view key, glm::dvec2& to) {
-        const auto value = transform.find(key);
-        if (!value) return;
-        const auto numbers = value->elements(2, 2, "an array of 2 numbers");
-        to = {numbers[0].number({-1e6f, 1e6f}), numbers[1].number({-1e6f, 1e6f})};
-    };
-    pair("offset", offset);
-    pair("scale", scale);
+    if (const auto value = transform.find("offset")) offset = value->pair({-1e6f, 1e6f});
+    if (const auto value = transform.find("scale")) scale = value->pair({-1e6f, 1e6f});
     const auto rotation = transform.find("rotation");
     const double angle = rotation ? glm::radians(double{rotation->number()}) : 0;
     transform.finish();
@@ -187,10 +181,9 @@ static double folded(double x, uint wrap) {
     return x - period * std::floor(x / period);
 }
 
-static uint wrapped(std::int64_t i, std::int64_t size, uint wrap) {
+uint wrapped(std::int64_t i, std::int64_t size, uint wrap) {
     if (wrap == WRAP_CLAMP) return static_cast<uint>(std::clamp<std::int64_t>(i, 0, size - 1));
-    if (wrap == WRAP_REPEAT) return static_cast<uint>((i + size) % size);
-    const std::int64_t k = (i + 2 * size) % (2 * size);
+    const std::int64_t period = wrap == WRAP_MIRROR ? 2 * size : size, k = (i % period + period) % period;
     return static_cast<uint>(std::min(k, 2 * size - 1 - k));
 }
 

@@ -54,6 +54,9 @@ private:
     std::map<std::string, TexelImage> narrow;                  // of 8 bits, which every space can read
 };
 
+/// The index of a texel along a side of an image, of one that may lie beyond it.
+uint wrapped(std::int64_t i, std::int64_t size, uint wrap);
+
 /// What a texel of an image holds, as kernels read it.
 glm::dvec4 texelOf(const TextureArrays& arrays, const TexelImage& image, uint x, uint y);
 

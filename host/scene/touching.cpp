@@ -56,12 +56,16 @@ bool isInPlaneOf(const Primitive& p, const Primitive& other, double apart) {
 } // namespace
 
 std::vector<uint> touchingTriangles(Scene& scene, const std::filesystem::path& file) {
-    std::vector<std::vector<Face>> shapes;
+    struct Shape {
+        Bounds box;
+        std::vector<Face> faces;
+    };
+    std::vector<Shape> shapes;
     for (const GlassShape& shape : scene.glass) {
         if (shape.first >= scene.triangleCount) continue;
-        shapes.emplace_back();
+        shapes.push_back({shape.box, {}});
         for (std::size_t i = shape.first; i < shape.end; i++)
-            shapes.back().push_back({uint(i), boxOf(scene.primitives[i], false)});
+            shapes.back().faces.push_back({uint(i), boxOf(scene.primitives[i], false)});
     }
     const auto saysOutside = [&](uint triangle) {
         return scene.materials[scene.primitives[triangle].material].exterior != NONE;
@@ -70,8 +74,9 @@ std::vector<uint> touchingTriangles(Scene& scene, const std::filesystem::path& f
     std::vector<std::pair<uint, uint>> pairs;
     for (auto one = shapes.begin(); one != shapes.end(); ++one)
         for (auto other = shapes.begin(); other != one; ++other) {
-            const double apart = std::ldexp(std::max(reachOf(boxOf(*one)), reachOf(boxOf(*other))), -17);
-            findNear(std::span{*one}, std::span{*other}, apart, [&](uint a, uint b) {
+            const double apart = std::ldexp(std::max(reachOf(one->box), reachOf(other->box)), -17);
+            if (!areNear(one->box, other->box, apart)) continue;
+            findNear(std::span{one->faces}, std::span{other->faces}, apart, [&](uint a, uint b) {
                 const Primitive &p = scene.primitives[a], &q = scene.primitives[b];
                 if (!isInPlaneOf(p, q, apart) && !isInPlaneOf(q, p, apart)) return;
                 if (saysOutside(a) || saysOutside(b)) byHand = true;
