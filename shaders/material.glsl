@@ -204,6 +204,9 @@ Scattering scatterDelta(Material m, Surface s, vec3 d, float u) {
 // Whether light goes straight through a surface of glass, see atInterface in media.glsl.
 bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
 
+// Whether the label of what is not diffuse of a material is W.
+bool isWide(Material m) { return hasWide && m.wide != 0u; }
+
 // Scattering by any lobe but the diffuse one. (The constants beside the questions are what plain kernels are cut by.)
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
     if (hasMedia && isPassage(m))
@@ -225,7 +228,13 @@ uint specularRun(uint flags) { return (flags & PATH_SPECULARS) / PATH_SPECULAR; 
 // Whether paths know the density of their last event.
 const bool hasPdf = hasGlossy || hasEndless;
 
-// Diffuse vertices of a path from the eye.
+// Whether there was a specular event, or one by a narrow lobe, since the last diffuse or wide vertex.
+bool wasNarrow(uint flags) { return (flags & (hasWide ? PATH_NARROW : PATH_SPECULARS)) != 0u; }
+
+// Whether the last event that was not such a one was wide.
+bool wasWide(uint flags) { return hasWide && (flags & PATH_WIDE) != 0u; }
+
+// Diffuse and wide vertices of a path from the eye.
 uint diffuseCount(uint flags) {
     return hasPdf ? (flags & ~PATH_PDF_MASK) >> PATH_DIFFUSE_SHIFT : flags >> PATH_DIFFUSE_SHIFT;
 }
@@ -243,6 +252,18 @@ uint withPdf(uint flags, float pdf) {
 float pdfOf(uint flags) { return hasPdf ? unpackPdf(flags >> PATH_PDF_SHIFT) : 0.0; }
 
 uint afterSpecular(uint flags) { return (flags & PATH_SPECULARS) == PATH_SPECULARS ? flags : flags + PATH_SPECULAR; }
+
+// The flags of a path from the eye after a diffuse vertex, or a wide one, but for those of this event.
+uint afterDiffuse(uint flags) {
+    return (flags & PATH_EYE_SPECULAR) | min(diffuseCount(flags) + 1u, MAX_DIFFUSE) << PATH_DIFFUSE_SHIFT;
+}
+
+// The same after any lobe but the diffuse one.
+uint afterLobe(uint flags, bool wide) {
+    if (wide) return afterDiffuse(flags) | afterSpecular(flags & PATH_SPECULARS) | PATH_WIDE;
+    flags = afterSpecular(flags) | (diffuseCount(flags) == 0u ? PATH_EYE_SPECULAR : 0u);
+    return hasWide ? flags | PATH_NARROW : flags;
+}
 
 // Probability with which a path goes on at a specular surface after a run of others. Light within glass near the
 // critical angle may be reflected for ever without loss: from the 32nd on a tenth ends at each. Only a run counts: in a

@@ -111,6 +111,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     vec3 geometric = behind ? -surface.normal : surface.normal;
     float cosine = -dot(path.direction, scatteringNormal(surface, path.direction));
     bool aimed = args.caustic != 0u && specularRun(path.flags) == 0u;
+    bool ends = args.caustic != 0u && isWide(material);
     photon = Photon(vec3(0.0), vec3(0.0), 0u);
     Path base = path;
     if (!aimed) {
@@ -122,6 +123,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     float diffuse = args.caustic != 0u ? 0.0 : maxComponent(albedo);
     float glossy = aimed ? 1.0 : maxComponent(glossyAlbedo(material, cosine, restAt(scene, material, cosine)));
     if (specularRun(path.flags) >= 32u) glossy *= 0.9;
+    if (ends) glossy = 0.0;
 
     float u = sample2(s, 4u * bounce + 5u).x;
     vec2 place = sample2(s, 4u * bounce + 6u);
@@ -158,6 +160,8 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     uint outcome;
     if (hasMedia && !(maxComponent(path.throughput) > 0.0)) return OUTCOME_ABSORBED;
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
+    if (hasWide && args.caustic != 0u && isWide(material) && (path.flags & PATH_SPECULARS) == 0u)
+        return OUTCOME_ESCAPED; // aimed at a narrow lobe, but it has another
     if (hasLayered && material.kind != MATERIAL_DIFFUSE && isDiffuse(material)) {
         uint index = path.flags >> PATH_DIFFUSE_SHIFT;
         Photon photon;
@@ -165,7 +169,8 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
         arrives = maxComponent(photon.color) > 0.0;
         deposit = PhotonDeposit(photon, slot, index);
     } else if (!isDiffuse(material)) {
-        outcome = scatterAtSpecular(bounce, path, material, surface, s);
+        bool ends = args.caustic != 0u && isWide(material);
+        outcome = ends ? OUTCOME_ABSORBED : scatterAtSpecular(bounce, path, material, surface, s);
     } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
         return OUTCOME_ESCAPED; // aimed at a specular shape, but not one that it hit
     } else {

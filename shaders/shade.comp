@@ -45,9 +45,13 @@ uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) !=
 
 // Where light of a layer that a path finds is added.
 uint columnOf(Path path, uint layer) {
-    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u;
+    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u &&
+                     (!hasWide || args.sequence == SAMPLES_GATHER);
     return gathering ? COLUMN_GATHERED : layerColumn(layer);
 }
+
+// Whether the label of a material's other lobe than the diffuse one is W. Whoever looks at a map sees it through all.
+bool isWideHere(Material material) { return isWide(material) && activeIntegrator() != INTEGRATOR_PHOTON_MAP; }
 
 // What a path does at the surface that it hits.
 struct Vertex {
@@ -61,13 +65,21 @@ struct Vertex {
 };
 
 // Whether light that the path runs into counts: seen directly or through specular surfaces. After a diffuse vertex the
-// shadow rays have the direct part, and the photon integrator has the rest in its maps.
+// shadow rays have the direct part, and the photon integrator has the rest in its maps; after a wide one there are no
+// maps, and the shadow rays share the direct part.
 bool findsLight(inout Vertex vertex, Path path) {
     uint diffuse = diffuseCount(path.flags);
-    if (diffuse > 0u && (activeIntegrator() != INTEGRATOR_PATH || (path.flags & PATH_SPECULARS) == 0u)) return false;
-    uint layer = layerOf(path, diffuse == 0u ? LAYER_EMISSION : diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    bool narrow = wasNarrow(path.flags), wide = wasWide(path.flags);
+    if (diffuse > 0u) {
+        if (activeIntegrator() == INTEGRATOR_PATH ? !narrow && !wide : !wide) return false;
+        if (activeIntegrator() == INTEGRATOR_DIRECT && narrow) return false;
+    }
+    uint layer = layerOf(path, diffuse == 0u  ? LAYER_EMISSION
+                               : diffuse > 1u ? LAYER_INDIRECT
+                               : narrow       ? LAYER_CAUSTIC
+                                              : LAYER_DIRECT);
     if (!hasLayer(layer)) return false;
-    vertex.emissionColumn = layerColumn(layer);
+    vertex.emissionColumn = columnOf(path, layer);
     return true;
 }
 
@@ -93,7 +105,8 @@ void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
     if (hasSky && direct && scene.sky != uvec2(0u) && SkyPtr(scene.sky).at[0].visible == 0u) return;
     // A gather ray carries its share of direct light: splits have the rest, by light samples.
     uint layer = layerOf(path, LAYER_DIRECT);
-    if (diffuseCount(path.flags) == 1u && (path.flags & PATH_SPECULARS) == 0u && pdfOf(path.flags) > 0.0) {
+    bool gathers = !hasWide || args.sequence == SAMPLES_GATHER;
+    if (gathers && diffuseCount(path.flags) == 1u && !wasNarrow(path.flags) && pdfOf(path.flags) > 0.0) {
         if (!hasLayer(layer)) return;
         vertex.emissionColumn = layerColumn(layer);
         path.throughput *= args.splits.at[slot].throughput;
@@ -142,12 +155,11 @@ bool continuesAfterDiffuse(Path path) {
 // One diffuse bounce, cosine distributed about the shading normal; Russian roulette from the third diffuse vertex on.
 void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 normal, vec3 shading,
                    float bulge, vec3 albedo, BounceSampler s) {
-    uint diffuse = (diffuseCount(path.flags)) + 1u;
-    float survival = diffuse > 2u ? maxComponent(albedo) : 1.0;
+    float survival = diffuseCount(path.flags) > 1u ? maxComponent(albedo) : 1.0;
     if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return;
     vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
     if (!departs(direction, normal, bulge)) return;
-    uint flags = (path.flags & PATH_EYE_SPECULAR) | diffuse << PATH_DIFFUSE_SHIFT;
+    uint flags = afterDiffuse(path.flags);
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
     float arrival = diffuseArrivalAt(scene, surface.primitive, surface.position, dot(direction, shading));
     vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
@@ -159,12 +171,16 @@ void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface su
 void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
                             BounceSampler s) {
     uint diffuse = diffuseCount(path.flags);
-    if (activeIntegrator() == INTEGRATOR_PHOTON_MAP || (diffuse > 0u && activeIntegrator() != INTEGRATOR_PATH)) return;
-    uint layer = diffuse == 0u ? LAYER_SPECULAR : layerOf(path, diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
+    bool wide = isWideHere(material);
+    if (activeIntegrator() == INTEGRATOR_PHOTON_MAP) return;
+    if (diffuse > 0u && activeIntegrator() != INTEGRATOR_PATH && !wide && !wasWide(path.flags)) return;
+    uint layer;
+    if (wide) layer = layerOf(path, diffuse == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
+    else layer = diffuse == 0u ? LAYER_SPECULAR : layerOf(path, diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
     vertex.shadowRay =
         sampleDirectGlossy(scene, surface, material, scatteringNormal(surface, path.direction), -path.direction,
-                           path.throughput, layerColumn(layer), bounceSample(s, 0u), bounceSample(s, 1u));
+                           path.throughput, columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
     attenuateShadowRay(vertex, scene, path);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
@@ -185,12 +201,12 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     uint run = specularRun(path.flags);
     float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
     if (u.y >= survival) return;
-    uint flags = afterSpecular(path.flags) | (diffuseCount(path.flags) == 0u ? PATH_EYE_SPECULAR : 0u);
+    bool wide = isWideHere(material);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);
     if (!(maxComponent(throughput) > 0.0)) return;
     vec3 origin = hasTouching ? leaveInterface(scene, surface, at, event.direction) : leave(surface, event.direction);
-    vertex.path = Path(origin, event.direction, throughput, path.distanceSinceDiffuse, surface.primitive,
-                       withPdf(flags, event.pdf), media);
+    vertex.path = Path(origin, event.direction, throughput, wide ? 0.0 : path.distanceSinceDiffuse, surface.primitive,
+                       withPdf(afterLobe(path.flags, wide), event.pdf), media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
 }
 
@@ -219,8 +235,13 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
     if (continuesAfterDiffuse(path)) bounceDiffuse(vertex, scene, path, surface, normal, shading, bulge, albedo, s);
 }
 
-// Whether light that is found beyond a specular vertex has a layer to go to.
-bool continuesAfterSpecular(Path path) { return diffuseCount(path.flags) > 0u || hasSpecularLayer; }
+// Whether light that is found beyond a vertex of another lobe than the diffuse one has a layer to go to.
+bool continuesAfterLobe(Path path, bool wide) {
+    bool first = diffuseCount(path.flags) == 0u;
+    if (wide && (path.flags & PATH_EYE_SPECULAR) == 0u)
+        return hasIndirectLayer || (first && (hasDirectLayer || hasCausticLayer));
+    return !first || hasSpecularLayer;
+}
 
 // A path of a slot at the hit of its ray. The first surface that the eye sees goes to the samples.
 Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
@@ -258,18 +279,19 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
         return vertex;
     }
     if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP) addEmission(vertex, scene, path, surface);
+    if (hasWide && activeIntegrator() == INTEGRATOR_DIRECT && diffuseCount(path.flags) > 0u) return vertex;
 
     BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
-    bool diffuse = isDiffuse(material);
+    bool diffuse = isDiffuse(material), continues = continuesAfterLobe(path, isWideHere(material));
     float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
     if (hasLayered && diffuse && isSpecular(material)) {
         // One of the lobes, and a weight that makes up for the choice.
-        float glossy = continuesAfterSpecular(path) ? glossyProbability(scene, material, cosine) : 0.0;
+        float glossy = continues ? glossyProbability(scene, material, cosine) : 0.0;
         diffuse = bounceSample(s, 2u).y >= glossy;
         path.throughput /= diffuse ? 1.0 - glossy : glossy;
     }
     if (diffuse) shadeDiffuse(vertex, scene, path, surface, diffuseAlbedo(scene, material, cosine), s);
-    else if (continuesAfterSpecular(path)) scatterAtSpecular(vertex, scene, path, material, surface, s);
+    else if (continues) scatterAtSpecular(vertex, scene, path, material, surface, s);
     return vertex;
 }
 

@@ -92,7 +92,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(28, uint, hasFarLights, 2)       /* 1: only one, that nothing hides */                                           \
     X(29, bool, hasGuide, true)                                                                                        \
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
-    X(31, bool, hasContact, true)
+    X(31, bool, hasContact, true)                                                                                      \
+    X(39, bool, hasNarrow, true) /* surfaces that send light on in one direction or about it */
 
 // Those that plain kernels are without, as they are without glossy lobes and without lights that have no area.
 #define WORLD_FEATURES(X)                                                                                              \
@@ -102,7 +103,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(35, bool, hasLens, true)                                                                                         \
     X(36, bool, hasTextures, true)                                                                                     \
     X(37, bool, hasOpacity, true)                                                                                      \
-    X(38, bool, hasEmissionTextures, true)
+    X(38, bool, hasEmissionTextures, true)                                                                             \
+    X(40, bool, hasWide, true)
 
 #ifdef __cplusplus
 struct Features {

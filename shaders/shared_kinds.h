@@ -9,7 +9,7 @@ SHARED_BEGIN
 // Lobes: parts of the light that a surface scatters. Each event of a path has the label of the lobe that it took.
 const uint LOBE_DIFFUSE = 1u; // D: photons are gathered there
 const uint LOBE_DELTA = 2u;   // S: light goes on in one direction
-const uint LOBE_GLOSSY = 4u;  // G: about one direction
+const uint LOBE_GLOSSY = 4u;  // G: about one direction, or W, where the lobe is wide: see Material.wide
 
 // id, constant, name of functions, lobes that it may have, in words
 #define MATERIALS(X)                                                                                                   \

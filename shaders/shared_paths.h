@@ -27,16 +27,19 @@ struct Path {
     vec3 origin;
     vec3 direction;
     vec3 throughput; // photon: its colour, relative to the flux per photon; eye: weight of the radiance it finds
-    float distanceSinceDiffuse; // since the last diffuse vertex
+    float distanceSinceDiffuse; // since the last diffuse or wide vertex
     uint from;                  // primitive that the ray leaves, or NONE
-    uint flags;                 // PATH_..., and the number of diffuse vertices from bit PATH_DIFFUSE_SHIFT on
+    uint flags;                 // PATH_..., and the number of diffuse and wide vertices from bit PATH_DIFFUSE_SHIFT on
     uint media;                 // that the ray is in, see media.glsl
 };
 const uint PATH_EYE_SPECULAR = 1u;               // eye: the event at the first vertex was specular or glossy
 const uint PATH_SPECULAR = 2u;                   // one specular or glossy event since the last diffuse one
 const uint PATH_SPECULARS = 63u * PATH_SPECULAR; // all of these that are counted
 const uint PATH_THROUGH = 1u << 7;               // goes through a smooth mesh, see terminator.glsl
-const uint PATH_DIFFUSE_SHIFT = 8u;
+const uint PATH_NARROW = 1u << 8; // eye, of scenes with wide lobes: PATH_SPECULARS since the last wide event
+const uint PATH_WIDE = 1u << 9;   // eye: the last event but for those was wide
+const uint PATH_DIFFUSE_SHIFT = 10u;
+const uint MAX_DIFFUSE = 4095u;  // eye: vertices that are counted, wide ones among them
 const uint PATH_PDF_SHIFT = 22u; // eye, of scenes with glossy lobes or a sky: density of the last event, see packPdf
 const uint PATH_PDF_MASK = 0xffc00000u;
 BUFFER(Path)

@@ -81,8 +81,13 @@ struct Material {
     uint medium;          // glass: what it is filled with, index into DeviceScene.media
     uint exterior;        // glass: what is outside of it, likewise; NONE: what a path was in
     vec2 spread;          // glass: what is added to `ior` for red and for blue
+    uint wide;            // 1: the label of its glossy lobe is W
 };
 BUFFER(Material)
+
+// Of glossy lobes that are as wide as a few diffuse ones: from this alpha on, photons and light samples count them
+// among diffuse ones, and rays bring what they reflect. Where roughness is a texture, the greatest decides.
+const float WIDE_ALPHA = 0.25f;
 
 /// What glass is filled with. The first of DeviceScene.media is what all of it stands in: clear, of index 1.
 struct Medium {

@@ -121,7 +121,7 @@ void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round)
     if (!splits || hasMaterials(features, GLOSSY_KINDS)) castShadowRays(recording);
     for (const PhotonMap& narrow : maps.narrow) queryPhotonMap(recording, QUEUE_CAUSTIC, narrow);
     queryPhotonMap(recording, QUEUE_CAUSTIC, maps.caustic);
-    if (!splits) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);
+    if (!splits || features.hasWide) queryPhotonMap(recording, QUEUE_GLOBAL, maps.global);
 }
 
 /// All rounds of a sequence of paths: as many as are known to do, or until the device says that no path is left.

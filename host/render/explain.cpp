@@ -2,6 +2,7 @@
 #include "render/explain.h"
 #include "render/features.h"
 #include "scene/lights.h"
+#include "scene/materials.h"
 #include "shared_kinds.h"
 #include "shared_layers.h"
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 std::string mapAbsent(bool needed, bool caustic, const Features& features, const Settings& settings) {
     if (needed) return "";
     if (!hasMaterials(features, DIFFUSE_KINDS)) return "the scene has no diffuse surface";
-    if (caustic && !hasMaterials(features, SPECULAR_KINDS)) return "the scene has no specular surface";
+    if (caustic && !features.hasNarrow) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
     if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
     const bool uses = settings.integrator == INTEGRATOR_PHOTON ||
@@ -24,10 +25,9 @@ std::string mapAbsent(bool needed, bool caustic, const Features& features, const
 
 /// Why a layer that was asked for has no light.
 std::string layerAbsent(uint layer, const Features& features, const Settings& settings) {
-    const bool specular = hasMaterials(features, SPECULAR_KINDS);
+    const bool specular = features.hasNarrow, receives = hasMaterials(features, DIFFUSE_KINDS) || features.hasWide;
     if (layer >= LAYER_COUNT) return "nobody asked for it";
-    if (!hasMaterials(features, DIFFUSE_KINDS) && layer != LAYER_EMISSION && layer != LAYER_SPECULAR)
-        return "the scene has no diffuse surface";
+    if (!receives && layer != LAYER_EMISSION && layer != LAYER_SPECULAR) return "the scene has no diffuse surface";
     if (!specular && (layer == LAYER_SPECULAR || layer == LAYER_CAUSTIC)) return "the scene has no specular surface";
     const bool finds =
         settings.integrator == INTEGRATOR_LIGHT ? layer == LAYER_CAUSTIC : settings.integrator != INTEGRATOR_DIRECT;
@@ -68,6 +68,8 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
 #define X(id, NAME, name, lobes, words) has("has" #name, f.materialKinds >> id & 1, words);
     MATERIALS(X)
 #undef X
+    has("hasNarrow", f.hasNarrow, "surfaces that send light on in one direction, or about it");
+    has("hasWide", f.hasWide, "gloss as wide as diffuse light");
     has("hasMedia", f.hasMedia, "glass that takes light away, or lies in other glass");
     has("hasDispersion", f.hasDispersion, "glass that refracts colours apart");
     has("hasTouching", f.hasTouching, "faces of glass that lie on each other");
@@ -114,9 +116,8 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
 
 std::string blindness(const Scene& scene, const Settings& settings) {
     const bool delta = std::ranges::any_of(scene.lights, isDelta);
-    const bool specular = std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
-        return (SPECULAR_KINDS >> scene.materials[p.material].kind & 1) != 0;
-    });
+    const bool specular = std::ranges::any_of(
+        scene.primitives, [&](const Primitive& p) { return isNarrow(scene.materials[p.material]); });
     if (settings.integrator != INTEGRATOR_PATH || !delta || !specular) return "";
     return "the path tracer cannot find caustics of lights without a size: points and spots of radius 0; the photon "
            "integrator does";

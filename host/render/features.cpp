@@ -2,6 +2,7 @@
 #include "render/features.h"
 #include "scene/glass.h"
 #include "scene/lights.h"
+#include "scene/materials.h"
 #include "shared_layers.h"
 #include "shared_scene.h"
 #include <algorithm>
@@ -40,16 +41,17 @@ static void chooseLayers(Features& f, const Settings& settings) {
     const bool path = settings.integrator == INTEGRATOR_PATH;
     const bool map = settings.integrator == INTEGRATOR_PHOTON_MAP;
     const bool light = settings.integrator == INTEGRATOR_LIGHT;
-    const bool diffuse = hasMaterials(f, DIFFUSE_KINDS), specular = hasMaterials(f, SPECULAR_KINDS);
+    const bool diffuse = hasMaterials(f, DIFFUSE_KINDS), narrow = f.hasNarrow, wide = f.hasWide && !map;
+    const bool receives = diffuse || wide;
     const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && diffuse;
     const bool caustic =
-        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && diffuse && specular;
+        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && diffuse && narrow;
     askFor(settings.layers, f);
     f.hasEmissionLayer &= !map && !light;
-    f.hasDirectLayer &= !map && !light && diffuse;
-    f.hasSpecularLayer &= !light && specular;
-    f.hasCausticLayer &= caustic || (path && diffuse && specular);
-    f.hasIndirectLayer &= global || (path && diffuse);
+    f.hasDirectLayer &= !map && !light && receives;
+    f.hasSpecularLayer &= !light && (narrow || (map && f.hasWide));
+    f.hasCausticLayer &= caustic || ((path || (photon && wide && settings.causticPhotons > 0)) && receives && narrow);
+    f.hasIndirectLayer &= global || (path && receives) || (photon && wide && settings.photons > 0);
     f.hasGlobalMap = global && (f.hasIndirectLayer || f.hasSpecularLayer);
     f.hasCausticMap = caustic && !light && (f.hasCausticLayer || f.hasSpecularLayer || f.hasIndirectLayer);
     f.hasBias &= asksMaps(f) && !settings.showPoints;
@@ -84,6 +86,8 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     }
     const bool glass = hasMaterials(features, DIELECTRIC_KINDS);
     features.hasContact = hasMaterials(features, GLASS_KINDS) && glassMayTouchOpaque(scene);
+    features.hasNarrow = anyMaterial(isNarrow);
+    features.hasWide = anyMaterial([](const Material& m) { return m.wide != 0; });
     features.hasMedia = !scene.media.empty();
     features.hasDispersion =
         std::ranges::any_of(scene.media, [](const Medium& medium) { return medium.spread != vec2{0}; });

@@ -243,12 +243,13 @@ void hashFiles(Scene& scene) {
 
 } // namespace
 
-Scene loadScene(const std::filesystem::path& file) {
+Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
     const std::string problem = fileProblem(file);
     if (!problem.empty())
         throw InputError(fmt::format("{}: {}; give a scene file", printable(file.string(), 4096), problem));
     Scene scene;
     scene.name = file.stem().string();
+    scene.wideAlpha = wideAlpha;
     scene.files.push_back(file);
     if (isGltfName(file)) scene.text = nlohmann::json{{"import", file.filename().string()}}.dump();
     else scene.text = readText(file, maxSceneBytes, "give a scene file; its meshes belong into files of their own");

@@ -161,6 +161,7 @@ Material readMaterial(Reader reader, Textures& textures) {
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
     MaterialTextures slots{NONE, NONE, NONE, NONE};
     Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures, slots);
+    material.wide = material.alpha >= textures.scene.wideAlpha;
     readOpacity(reader, material, textures, slots);
     material.textures = textures.place(slots);
     reader.finish();

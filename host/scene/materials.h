@@ -6,6 +6,9 @@
 
 namespace vkpm {
 
+/// Whether it has a lobe that sends light on in one direction, or about it.
+inline bool isNarrow(const Material& material) { return material.kind != MATERIAL_DIFFUSE && material.wide == 0; }
+
 /// A material as kernels read it; what it needs of rests and textures is added to those of the scene. Throws
 /// InputError.
 Material readMaterial(Reader reader, Textures& textures);

@@ -66,6 +66,7 @@ struct Scene {
     std::vector<Primitive> primitives; // triangles, then spheres
     std::vector<Normals> normals;
     std::vector<Material> materials;
+    float wideAlpha = WIDE_ALPHA; // from which on glossy lobes have the label W
     std::vector<float> rests;     // see DeviceScene
     std::vector<Medium> media;    // likewise; empty if paths need not know what they are in
     std::vector<uint> lightMedia; // likewise
@@ -93,8 +94,8 @@ struct Scene {
 };
 
 /// The scene of a JSON file; meshes are found relative to the file. A glTF file is a scene that imports it. Throws
-/// InputError.
-Scene loadScene(const std::filesystem::path& file);
+/// InputError. Which label glossy lobes have, by their alpha, changes what is noisy, and no mean.
+Scene loadScene(const std::filesystem::path& file, float wideAlpha = WIDE_ALPHA);
 
 /// Adds files to those that were read, each once.
 void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files);

@@ -3,6 +3,7 @@
 #include "scene/bounding_sphere.h"
 #include "scene/box.h"
 #include "scene/emission.h"
+#include "scene/materials.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <cmath>
@@ -150,9 +151,7 @@ uint ShapeLoader::blackMaterial() {
     return black;
 }
 
-bool ShapeLoader::isSpecular(const Surface& surface) const {
-    return scene.materials[surface.material].kind != MATERIAL_DIFFUSE;
-}
+bool ShapeLoader::isNarrow(const Surface& surface) const { return vkpm::isNarrow(scene.materials[surface.material]); }
 
 void ShapeLoader::addSphere(Reader& shape) {
     const dvec3 center = shape.at("center").place();
@@ -267,7 +266,7 @@ uint ShapeLoader::addLight(const Surface& surface, uint kind, vec3 a, vec3 u, ve
 }
 
 void ShapeLoader::addTarget(const Surface& surface, const Target& target) {
-    if (!isSpecular(surface)) return;
+    if (!isNarrow(surface)) return;
     const Material& material = scene.materials[surface.material];
     scene.targets.push_back(target);
     scene.targetWeights.push_back(reflectedByCoat(material, scene.rests));

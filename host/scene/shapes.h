@@ -74,7 +74,7 @@ private:
                           vec3 v, const std::array<vec2, 4>& places);
     uint addNormals(const Primitive& primitive, const std::array<vec3, 3>& normals, const Transform& transform);
     void addTarget(const Surface& surface, const Target& target);
-    bool isSpecular(const Surface& surface) const;
+    bool isNarrow(const Surface& surface) const;
     void noteGlass(const Reader& shape, const Surface& surface, std::size_t first);
 
     Scene& scene;

@@ -1,0 +1,63 @@
+/// Labels of events in a room with all of them: each layer by photons is that of the path tracer, and which label gloss
+/// has changes no beauty.
+#include "render_support.h"
+#include <gtest/gtest.h>
+
+namespace vkpm {
+namespace {
+
+const char* const layerNames[]{"emission", "direct", "specular", "caustic", "indirect", "beauty"};
+
+Scene room(float wideAlpha = WIDE_ALPHA) {
+    return loadScene(std::filesystem::path{__FILE__}.parent_path() / "data/kinds.json", wideAlpha);
+}
+
+/// Means of layers over the picture, the last of beauty, over independent seeds.
+std::vector<Estimate> means(const Scene& scene, uint integrator, uint passes) {
+    Settings settings = scene.settings;
+    settings.integrator = integrator;
+    std::vector<std::vector<double>> values(LAYER_COUNT + 1);
+    for (settings.seed = 1; settings.seed <= 8; settings.seed++) {
+        const Rendered image = renderPasses(scene, settings, passes);
+        EXPECT_EQ(image.nonfinite, 0u);
+        for (uint layer = 0; layer <= LAYER_COUNT; layer++) values[layer].push_back(layerMean(image.pixels, layer));
+    }
+    std::vector<Estimate> result;
+    for (const std::vector<double>& list : values) result.push_back(estimate(list));
+    return result;
+}
+
+const std::vector<Estimate>& byPhotons() {
+    static const std::vector<Estimate> known = means(room(), INTEGRATOR_PHOTON, 24);
+    return known;
+}
+
+/// `noise`, of the mean: what may hide an error. `bias`: what discs may lose beyond edges.
+void expectSame(Estimate a, Estimate b, double noise, double bias, const std::string& what) {
+    const double allowed = 4 * std::hypot(a.error, b.error);
+    std::printf("%-9s %.6f +- %.6f, %.6f +- %.6f, z %+.2f\n", what.c_str(), a.mean, a.error, b.mean, b.error,
+                zScore(a, b));
+    EXPECT_NEAR(a.mean, b.mean, allowed + bias * b.mean) << what;
+    EXPECT_LE(allowed, noise * b.mean) << what << ": the noise is too great to see an error";
+}
+
+TEST(Labels, AreThoseOfThePathTracer) {
+    const std::vector<Estimate>& photon = byPhotons();
+    const std::vector<Estimate> path = means(room(), INTEGRATOR_PATH, 128);
+    const std::vector<Estimate> direct = means(room(), INTEGRATOR_DIRECT, 16);
+    const double noise[]{0.01, 0.01, 0.05, 0.12, 0.04, 0.02};
+    for (uint layer = 0; layer <= LAYER_COUNT; layer++)
+        // A disc of radius r loses .21 r for a length of edge.
+        expectSame(photon[layer], path[layer], noise[layer],
+                   layer == LAYER_INDIRECT || layer == LAYER_CAUSTIC ? 0.012 : 0.003, layerNames[layer]);
+    expectSame(direct[LAYER_DIRECT], path[LAYER_DIRECT], 0.02, 0, "direct light alone");
+}
+
+TEST(Labels, MoveNoBeauty) {
+    for (const float wideAlpha : {0.1f, 0.5f})
+        expectSame(means(room(wideAlpha), INTEGRATOR_PHOTON, 24).back(), byPhotons().back(), 0.02, 0.003,
+                   std::to_string(wideAlpha));
+}
+
+} // namespace
+} // namespace vkpm
