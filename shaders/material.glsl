@@ -207,6 +207,9 @@ bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
 // Whether the label of what is not diffuse of a material is W.
 bool isWide(Material m) { return hasWide && m.wide != 0u; }
 
+// Whether photons that are connected to the camera are seen by that lobe: it sends no light through.
+bool reflectsWide(Material m) { return isWide(m) && (DIELECTRIC_KINDS >> m.kind & 1u) == 0u; }
+
 // Scattering by any lobe but the diffuse one. (The constants beside the questions are what plain kernels are cut by.)
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
     if (hasMedia && isPassage(m))

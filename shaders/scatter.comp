@@ -114,6 +114,11 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     bool ends = args.caustic != 0u && isWide(material);
     photon = Photon(vec3(0.0), vec3(0.0), 0u);
     Path base = path;
+    if (hasWide && ends && args.connected != 0u) {
+        photon = photonAt(base, surface, geometric, 0.0);
+        photon.normal = packUnit(-path.direction);
+        return OUTCOME_ABSORBED;
+    }
     if (!aimed) {
         photon = photonAt(base, surface, geometric, 0.0);
         photon.color *= diffuseArrival(scene, material, cosine);
@@ -162,7 +167,8 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
     if (hasWide && args.caustic != 0u && isWide(material) && (path.flags & PATH_SPECULARS) == 0u)
         return OUTCOME_ESCAPED; // aimed at a narrow lobe, but it has another
-    if (hasLayered && material.kind != MATERIAL_DIFFUSE && isDiffuse(material)) {
+    bool connects = hasWide && args.connected != 0u && reflectsWide(material);
+    if (hasLayered && material.kind != MATERIAL_DIFFUSE && (connects || isDiffuse(material))) {
         uint index = path.flags >> PATH_DIFFUSE_SHIFT;
         Photon photon;
         outcome = arriveAtLayers(bounce, path, material, surface, s, photon);

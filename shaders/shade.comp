@@ -238,6 +238,7 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
 // Whether light that is found beyond a vertex of another lobe than the diffuse one has a layer to go to.
 bool continuesAfterLobe(Path path, bool wide) {
     bool first = diffuseCount(path.flags) == 0u;
+    if (wide && activeIntegrator() == INTEGRATOR_LIGHT) return false;
     if (wide && (path.flags & PATH_EYE_SPECULAR) == 0u)
         return hasIndirectLayer || (first && (hasDirectLayer || hasCausticLayer));
     return !first || hasSpecularLayer;

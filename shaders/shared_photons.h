@@ -82,6 +82,7 @@ struct ScatterArgs {
     uint bounce;  // the first
     uint bounces; // how many at most
     uint caustic;
+    uint connected; // 1: to the camera; at wide lobes photons keep the direction that they come from as their normal
 };
 
 struct StorePhotonsArgs {

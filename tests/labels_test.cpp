@@ -50,6 +50,8 @@ TEST(Labels, AreThoseOfThePathTracer) {
         // A disc of radius r loses .21 r for a length of edge.
         expectSame(photon[layer], path[layer], noise[layer],
                    layer == LAYER_INDIRECT || layer == LAYER_CAUSTIC ? 0.012 : 0.003, layerNames[layer]);
+    const Estimate light = means(room(), INTEGRATOR_LIGHT, 32)[LAYER_CAUSTIC];
+    expectSame(light, path[LAYER_CAUSTIC], 0.12, 0.003, "caustics by light tracing");
     expectSame(direct[LAYER_DIRECT], path[LAYER_DIRECT], 0.02, 0, "direct light alone");
 }
 

@@ -115,12 +115,19 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
 }
 
 std::string blindness(const Scene& scene, const Settings& settings) {
-    const bool delta = std::ranges::any_of(scene.lights, isDelta);
-    const bool specular = std::ranges::any_of(
-        scene.primitives, [&](const Primitive& p) { return isNarrow(scene.materials[p.material]); });
-    if (settings.integrator != INTEGRATOR_PATH || !delta || !specular) return "";
-    return "the path tracer cannot find caustics of lights without a size: points and spots of radius 0; the photon "
-           "integrator does";
+    const auto any = [&](auto&& is) {
+        return std::ranges::any_of(scene.primitives,
+                                   [&](const Primitive& p) { return is(scene.materials[p.material]); });
+    };
+    if (settings.integrator == INTEGRATOR_PATH && std::ranges::any_of(scene.lights, isDelta) && any(isNarrow))
+        return "the path tracer cannot find caustics of lights without a size: points and spots of radius 0; the "
+               "photon integrator does";
+    const auto isFrosted = [](const Material& m) { return m.wide != 0 && (DIELECTRIC_KINDS >> m.kind & 1) != 0; };
+    if (settings.integrator == INTEGRATOR_LIGHT && any(isFrosted) && any(isNarrow))
+        return "light tracing does not see caustics that fall on glass of roughness 0.5 and more; the photon "
+               "integrator "
+               "does";
+    return "";
 }
 
 } // namespace vkpm

@@ -23,7 +23,9 @@ void askFor(uint layers, Features& features) {
 }
 
 bool asksLights(const Features& f, const Settings& settings) {
-    const bool byGloss = settings.integrator == INTEGRATOR_PATH && hasMaterials(f, GLOSSY_KINDS) && f.hasCausticLayer;
+    const bool finds = settings.integrator == INTEGRATOR_PATH ||
+                       (settings.integrator == INTEGRATOR_PHOTON && f.hasWide); // caustics by paths
+    const bool byGloss = finds && hasMaterials(f, GLOSSY_KINDS) && f.hasCausticLayer;
     return settings.integrator != INTEGRATOR_PHOTON_MAP && hasMaterials(f, DIFFUSE_KINDS | GLOSSY_KINDS) &&
            (f.hasDirectLayer || f.hasSpecularLayer || f.hasIndirectLayer || byGloss);
 }

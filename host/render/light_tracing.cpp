@@ -10,7 +10,9 @@ LightTracing::LightTracing(Gpu& device, const UploadedScene& uploaded, const Fea
     : tracing(device, uploaded, features, MapKind::caustic, settings.causticPhotons, settings.seed, batch), gpu(device),
       scene(uploaded), size(settings.size), seed(settings.seed), photonFlux(flux / float(settings.causticPhotons)),
       sort(gpu), rays(gpu, "camera connections", 1), splat(gpu, "splat", features),
-      sumSplats(gpu, "sum_splats", features) {}
+      sumSplats(gpu, "sum_splats", features) {
+    tracing.connects = true;
+}
 
 void LightTracing::recordSplats(Recording& recording, uint pass) {
     splatCount = static_cast<uint>(tracing.arrived());

@@ -68,7 +68,8 @@ void PhotonTracing::recordBounces(Recording& recording, const Batch& batch, uint
     const Buffer<Queue>& queues = compaction.queues;
     recording.run(scatter, queues, QUEUE_CONTINUE,
                   {scene.address, paths, deposits, counts, queues, compaction.list, compaction.flags, status,
-                   static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, bounces, uint(kind)});
+                   static_cast<uint>(deposits.size()), batch.first, batch.pass, seed, bounce, bounces, uint(kind),
+                   connects});
     compaction.compact(recording);
 }
 

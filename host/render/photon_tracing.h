@@ -51,6 +51,7 @@ public:
     std::uint64_t arrived() const { return held ? passLedger.stored : 0; }
 
     Buffer<Photon> photons;
+    bool connects = false; // they are connected to the camera
 
 private:
     /// A part of a pass, and what the host hears of it.
