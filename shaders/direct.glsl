@@ -29,7 +29,8 @@ ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3
     LightView seen = viewLight(scene, light, origin, place);
     vec3 w = seen.w;
     float arrival = cosineOfArrival(w, normal, shading, bulge);
-    float cosine = arrival * diffuseArrivalAt(scene, from, origin, dot(w, shading));
+    float cosine = arrival;
+    if (hasLayered) cosine = weightOfArrival(scene, materialOfArrival(scene, from, origin), w, normal, shading, bulge);
     if (hasEndless && alsoFound && (seen.flags & SHADOW_ENDLESS) != 0u)
         cosine *= lightSampleWeight(seen.inversePdf / probability, unpackPdf(packPdf(arrival / PI)));
     vec3 radiance = seen.radiance * (cosine * seen.inversePdf / (PI * probability)) * weight;
@@ -47,9 +48,9 @@ ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, v
                           weight, column, place, alsoFound);
 }
 
-// That of a glossy lobe about n, in place of the cosine law.
-ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material material, vec3 n, vec3 wo, vec3 weight,
-                             uint column, vec2 choice, vec2 place) {
+// That of a glossy lobe, in place of the cosine law.
+ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material material, vec3 wo, vec3 weight, uint column,
+                             vec2 choice, vec2 place) {
     bool leaving = dot(wo, surface.normal) < 0.0;
     vec3 normal = leaving ? -surface.normal : surface.normal;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
@@ -60,10 +61,11 @@ ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material materi
     vec3 w = seen.w;
     float inversePdf = seen.inversePdf / lightProbability(scene.directCdf, chosen);
     vec3 radiance = vec3(0.0);
-    if (dot(w, normal) > 0.0 && dot(w, n) > 0.0 && dot(wo, n) > 0.0) {
-        float pdf = seen.isFound ? unpackPdf(packPdf(pdfGlossy(material, leaving, n, wo, w))) : 0.0;
-        radiance = seen.radiance * evaluateGlossy(material, leaving, n, wo, w) * weight *
-                   (inversePdf * lightSampleWeight(inversePdf, pdf));
+    if (dot(w, normal) > 0.0) {
+        float pdf;
+        vec3 value = evaluateGlossyAt(material, surface, -wo, w, pdf);
+        pdf = seen.isFound ? unpackPdf(packPdf(pdf)) : 0.0;
+        radiance = seen.radiance * value * weight * (inversePdf * lightSampleWeight(inversePdf, pdf));
     }
     return ShadowRay(origin, surface.primitive, seen.target, radiance, column, seen.flags);
 }

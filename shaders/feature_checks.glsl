@@ -34,6 +34,10 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
     require(scene, scene.media != uvec2(0u) && material.spread != vec2(0.0), hasDispersion, id_hasDispersion);
     require(scene, material.textures != 0u, hasTextures, id_hasTextures);
     require(scene, material.seeThrough > 0.0, hasOpacity, id_hasOpacity);
+    require(scene,
+            material.textures != 0u &&
+                MaterialTexturesPtr(scene.materialTextures).at[material.textures - 1u].normal != NONE,
+            hasNormalMaps && hasSmoothNormals && hasSmoothDiffuse, id_hasNormalMaps);
     require(scene, material.wide != 0u, hasWide, id_hasWide);
     require(scene, material.wide == 0u && material.kind != MATERIAL_DIFFUSE, hasNarrow, id_hasNarrow);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);

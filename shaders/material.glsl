@@ -13,11 +13,13 @@
 #include "common.glsl"
 #include "light_kinds.glsl"
 #include "lobes.glsl"
+#include "normal_map.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
 #include "shared_paths.h"
 #include "shared_scene.h"
 #include "surface.glsl"
+#include "terminator.glsl"
 #include "texture.glsl"
 
 bool isGlossy(Material m) { return hasGlossy && (GLOSSY_KINDS >> m.kind & 1u) != 0u; }
@@ -150,13 +152,28 @@ Material materialAt(DeviceScene scene, Surface s, vec2 weights) {
     return m;
 }
 
-// The factor of arrival at the material of a primitive, at a place next to it.
-float diffuseArrivalAt(DeviceScene scene, uint primitive, vec3 position, float cosine) {
-    if (!hasLayered) return 1.0;
+// The material of a primitive as far as arrival at its diffuse lobe asks, at a place next to it.
+Material materialOfArrival(DeviceScene scene, uint primitive, vec3 position) {
     Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
     if (hasTextures && m.textures != 0u)
         m = texturedMaterial(scene, m, SLOT_METALLIC, primitive, weightsAt(scene, primitive, position), position);
-    return diffuseArrival(scene, m, cosine);
+    return m;
+}
+
+// The factor of arrival there.
+float diffuseArrivalAt(DeviceScene scene, uint primitive, vec3 position, float cosine) {
+    return hasLayered ? diffuseArrival(scene, materialOfArrival(scene, primitive, position), cosine) : 1.0;
+}
+
+// The cosine with which light from direction w counts, see terminator.glsl, times the factor of arrival.
+float weightOfArrival(DeviceScene scene, Material m, vec3 w, vec3 normal, vec3 shading, float bulge) {
+    float cosine = dot(w, shading);
+    if (bulge >= 0.0 || !hasNormalMaps)
+        return cosineOfArrival(w, normal, shading, bulge) * diffuseArrival(scene, m, cosine);
+    float mirrored = dot(reflect(w, normal), shading);
+    float weight = cosine > 0.0 ? cosine * diffuseArrival(scene, m, cosine) : 0.0;
+    if (mirrored > 0.0) weight += mirrored * diffuseArrival(scene, m, mirrored);
+    return dot(w, normal) > 0.0 ? weight : 0.0;
 }
 
 // The normal about which light of direction d is scattered, on its side: the shading normal where d is on its side too.
@@ -165,6 +182,17 @@ vec3 scatteringNormal(Surface s, vec3 d) {
     vec3 shading = leaving ? -s.shading : s.shading;
     if (hasSmoothNormals && dot(d, shading) < 0.0) return shading;
     return leaving ? -s.normal : s.normal;
+}
+
+// What a glossy lobe sends from w towards -d, times the cosine of w, and the density with which it sends -d to w.
+vec3 evaluateGlossyAt(Material m, Surface s, vec3 d, vec3 w, out float pdf) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 n = isMapped(s) ? (leaving ? -s.shading : s.shading) : scatteringNormal(s, d);
+    pdf = 0.0;
+    if (!(dot(w, n) > 0.0 && dot(d, n) < 0.0)) return vec3(0.0);
+    float kept = isMapped(s) ? mappedAcceptance(s, d, w) : 1.0;
+    pdf = kept * pdfGlossy(m, leaving, n, -d, w);
+    return kept * evaluateGlossy(m, leaving, n, -d, w);
 }
 
 // Probability with which a path at a surface with both lobes takes the glossy one: by what they reflect, and at least a
@@ -183,6 +211,23 @@ Scattering scatterGlossy(Material m, Surface s, vec3 d, vec3 u) {
     Scattering event = sampleGlossy(m, d, n, leaving, u);
     if (hasSmoothNormals && dot(event.direction, n) > 0.0 != dot(event.direction, leaving ? -s.normal : s.normal) > 0.0)
         event.weight = vec3(0.0);
+    return event;
+}
+
+// Scattering about a mapped normal, by any lobe but the diffuse one; see normal_map.glsl. The choice `accepted` is a
+// number in [0, 1).
+Scattering scatterMapped(Material m, Surface s, vec3 d, vec3 u, float accepted) {
+    bool leaving = dot(d, s.normal) > 0.0;
+    vec3 geometric = leaving ? -s.normal : s.normal, n = leaving ? -s.shading : s.shading;
+    bool behind = !(dot(d, n) < 0.0);
+    if (behind) n = geometric;
+    Scattering event;
+    if (hasGlossy && isGlossy(m)) event = sampleGlossy(m, d, n, leaving, u);
+    else event = scatterAbout(m, d, n, leaving, u.x);
+    bool isOnItsSide = dot(event.direction, n) > 0.0 == dot(event.direction, geometric) > 0.0;
+    float kept = behind || !isOnItsSide ? 0.0 : mappedAcceptance(s, d, event.direction);
+    if (accepted < kept) event.pdf *= kept;
+    else event = Scattering(-d, event.weight, n, 1.0, 0.0);
     return event;
 }
 
@@ -210,16 +255,18 @@ bool isWide(Material m) { return hasWide && m.wide != 0u; }
 // Whether photons that are connected to the camera are seen by that lobe: it sends no light through.
 bool reflectsWide(Material m) { return isWide(m) && (DIELECTRIC_KINDS >> m.kind & 1u) == 0u; }
 
-// Scattering by any lobe but the diffuse one. (The constants beside the questions are what plain kernels are cut by.)
-Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u) {
+// Scattering by any lobe but the diffuse one; `accepted` is a choice of mapped normals. (The constants beside the questions are what plain kernels are cut by.)
+Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u, float accepted) {
     if (hasMedia && isPassage(m))
         return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);
+    if (isMapped(s)) return scatterMapped(m, s, d, u, accepted);
     if (hasGlossy && isGlossy(m)) return scatterGlossy(m, s, d, u);
     return scatterDelta(m, s, d, u.x);
 }
 
 // What a photon's flux is multiplied by since shading normals are not the geometric ones (Veach 1997, eq. 5.19);
-// wi against its direction of arrival, wo along that of departure, for a specular event about n.
+// wi against its direction of arrival, wo along that of departure, for a specular event about n. Mapped normals need
+// none.
 float specularCorrection(vec3 wi, vec3 wo, vec3 n, vec3 geometric) {
     if (!hasSmoothNormals || n == geometric || n == -geometric) return 1.0;
     return abs(dot(wi, n) * dot(wo, geometric)) / max(abs(dot(wi, geometric) * dot(wo, n)), 1e-6);

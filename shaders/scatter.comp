@@ -39,9 +39,12 @@ uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface 
     uint run = specularRun(path.flags);
     Interface at = Interface(path.media, NONE);
     if (hasMedia) at = atInterface(args.scene.at[0], path, surface, material);
-    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
+    bool mapped = isMapped(surface);
+    float accepted = mapped ? sample2(s, 4u * bounce + 7u).x : 0.0;
+    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place), accepted);
     uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
-    float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+    float correction =
+        mapped ? 1.0 : specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
     vec3 origin =
         hasTouching ? leaveInterface(args.scene.at[0], surface, at, event.direction) : leave(surface, event.direction);
     path = Path(origin, event.direction, path.throughput * correction, 0.0, surface.primitive,
@@ -81,7 +84,7 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
     bool through = hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u;
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind != through ? -surface.normal : surface.normal;
-    float bulge = behind != through ? -surface.bulge : surface.bulge;
+    float bulge = bulgeOn(surface, behind != through);
     photon = Photon(vec3(0.0), vec3(0.0), 0u);
     if (through && bulge <= 0.0) return OUTCOME_ABSORBED;
     path.flags &= ~PATH_THROUGH;
@@ -91,7 +94,7 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
     if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
     else if (through) return OUTCOME_ABSORBED;
     float survival = maxComponent(material.color);
-    bool passes = hasSmoothDiffuse && bulge != 0.0 && !through;
+    bool passes = hasSmoothDiffuse && bulge != 0.0 && !through && !isMapped(surface);
     if (passes) survival = min(survival, MOST_SURVIVAL);
     if (args.caustic != 0u) survival = 0.0;
     uint outcome =
@@ -110,18 +113,23 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 geometric = behind ? -surface.normal : surface.normal;
     float cosine = -dot(path.direction, scatteringNormal(surface, path.direction));
+    bool mapped = isMapped(surface);
     bool aimed = args.caustic != 0u && specularRun(path.flags) == 0u;
     bool ends = args.caustic != 0u && isWide(material);
     photon = Photon(vec3(0.0), vec3(0.0), 0u);
     Path base = path;
     if (hasWide && ends && args.connected != 0u) {
-        photon = photonAt(base, surface, geometric, 0.0);
-        photon.normal = packUnit(-path.direction);
+        float arrived = abs(dot(path.direction, geometric));
+        photon = Photon(surface.position, path.throughput / max(arrived, 1e-6), packUnit(-path.direction));
         return OUTCOME_ABSORBED;
     }
     if (!aimed) {
         photon = photonAt(base, surface, geometric, 0.0);
-        photon.color *= diffuseArrival(scene, material, cosine);
+        if (mapped)
+            photon.color = path.throughput * weightOfArrival(scene, material, -path.direction, geometric,
+                                                             behind ? -surface.shading : surface.shading, -1.0) /
+                           max(abs(dot(path.direction, geometric)), 1e-6);
+        else photon.color *= diffuseArrival(scene, material, cosine);
         if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;
     }
     vec3 albedo = diffuseAlbedo(scene, material, cosine);
@@ -133,8 +141,15 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     float u = sample2(s, 4u * bounce + 5u).x;
     vec2 place = sample2(s, 4u * bounce + 6u);
     if (u < glossy) {
-        Scattering event = scatterGlossy(material, surface, path.direction, vec3(0.0, place));
-        float correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+        Scattering event;
+        float correction = 1.0;
+        if (mapped) {
+            float accepted = sample2(s, 4u * bounce + 7u).x;
+            event = scatterMapped(material, surface, path.direction, vec3(0.0, place), accepted);
+        } else {
+            event = scatterGlossy(material, surface, path.direction, vec3(0.0, place));
+            correction = specularCorrection(-path.direction, event.direction, event.normal, surface.normal);
+        }
         path =
             Path(leave(surface, event.direction), event.direction, path.throughput * event.weight * correction / glossy,
                  0.0, surface.primitive, afterSpecular(path.flags), path.media);
@@ -144,6 +159,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     vec3 direction = toWorld(cosineHemisphere(place), geometric);
     float outgoing = dot(direction, scatteringNormal(surface, -direction));
     vec3 color = base.throughput * albedo * (diffuseArrival(scene, material, outgoing) / diffuse);
+    if (mapped) color = photon.color * diffuseAlbedo(scene, material, outgoing) / diffuse;
     path = Path(offsetPoint(surface.position, surface.magnitude, geometric), direction, color, 0.0, surface.primitive,
                 path.flags & ~PATH_SPECULARS, path.media);
     return maxComponent(color) > 0.0 ? OUTCOME_GOES_ON : OUTCOME_ABSORBED;
@@ -162,6 +178,7 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
+    mapNormal(scene, surface, material, hit.weights);
     uint outcome;
     if (hasMedia && !(maxComponent(path.throughput) > 0.0)) return OUTCOME_ABSORBED;
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;

@@ -158,10 +158,10 @@ void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface su
     float survival = diffuseCount(path.flags) > 1u ? maxComponent(albedo) : 1.0;
     if (maxComponent(albedo) <= 0.0 || bounceSample(s, 2u).x >= survival) return;
     vec3 direction = toWorld(cosineHemisphere(bounceSample(s, 3u)), shading);
+    float arrival = diffuseArrivalAt(scene, surface.primitive, surface.position, dot(direction, shading));
     if (!departs(direction, normal, bulge)) return;
     uint flags = afterDiffuse(path.flags);
     if (goesThrough(direction, normal, bulge)) flags |= PATH_THROUGH;
-    float arrival = diffuseArrivalAt(scene, surface.primitive, surface.position, dot(direction, shading));
     vertex.path = Path(offsetPoint(surface.position, surface.magnitude, normal), direction,
                        path.throughput * albedo / survival * arrival, 0.0, surface.primitive, flags, path.media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
@@ -178,9 +178,8 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
     if (wide) layer = layerOf(path, diffuse == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     else layer = diffuse == 0u ? LAYER_SPECULAR : layerOf(path, diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
-    vertex.shadowRay =
-        sampleDirectGlossy(scene, surface, material, scatteringNormal(surface, path.direction), -path.direction,
-                           path.throughput, columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
+    vertex.shadowRay = sampleDirectGlossy(scene, surface, material, -path.direction, path.throughput,
+                                          columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
     attenuateShadowRay(vertex, scene, path);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
@@ -196,7 +195,8 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
-    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place));
+    float accepted = isMapped(surface) ? bounceSample(s, 1u).x : 0.0;
+    Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place), accepted);
     uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
     uint run = specularRun(path.flags);
     float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
@@ -214,7 +214,7 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind ? -surface.normal : surface.normal;
     vec3 shading = behind ? -surface.shading : surface.shading;
-    float bulge = behind ? -surface.bulge : surface.bulge;
+    float bulge = bulgeOn(surface, behind);
     bool first = diffuseCount(path.flags) == 0u;
     bool maps = activeIntegrator() == INTEGRATOR_PHOTON_MAP, gathers = activeIntegrator() == INTEGRATOR_PHOTON;
     bool isFar = gathers && !first && path.distanceSinceDiffuse >= args.nearDistance;
@@ -261,6 +261,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     requireSurface(scene, hit.primitive, material);
     if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
+    mapNormal(scene, surface, material, hit.weights);
     path.distanceSinceDiffuse += hit.t;
     if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     if (bounce == 0u) {

@@ -104,7 +104,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(36, bool, hasTextures, true)                                                                                     \
     X(37, bool, hasOpacity, true)                                                                                      \
     X(38, bool, hasEmissionTextures, true)                                                                             \
-    X(40, bool, hasWide, true)
+    X(40, bool, hasWide, true)                                                                                         \
+    X(41, bool, hasNormalMaps, true)
 
 #ifdef __cplusplus
 struct Features {

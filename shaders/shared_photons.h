@@ -82,7 +82,8 @@ struct ScatterArgs {
     uint bounce;  // the first
     uint bounces; // how many at most
     uint caustic;
-    uint connected; // 1: to the camera; at wide lobes photons keep the direction that they come from as their normal
+    uint connected; // 1: to the camera; at wide lobes photons keep the direction that they come from as their normal,
+                    // and their color is over its geometric cosine
 };
 
 struct StorePhotonsArgs {

@@ -55,6 +55,7 @@ struct MaterialTextures {
     uint metallic;
     uint roughness;
     uint opacity;
+    uint normal; // its factor is (strength, strength, 1)
 };
 BUFFER(MaterialTextures)
 

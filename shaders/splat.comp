@@ -51,19 +51,21 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
     Surface surface = surfaceAt(scene, Path(eye, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
     Material material = materialAt(scene, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
+    mapNormal(scene, surface, material, hit.weights);
     bool wide = hasWide && reflectsWide(material);
     if (!(wide || isDiffuse(material)) || !isAt(photon, surface, direction)) return false;
 
     float cosine = abs(dot(direction, surface.normal));
-    vec3 n = scatteringNormal(surface, direction), scattered = vec3(0.0); // pi times what is scattered of the light
-    float leaving = -dot(direction, n);
-    if (isDiffuse(material)) scattered = diffuseAlbedo(scene, material, leaving);
+    vec3 scattered = vec3(0.0); // pi times what is scattered of the light
+    if (isDiffuse(material)) scattered = diffuseAlbedo(scene, material, -dot(direction, scatteringNormal(surface, direction)));
     if (wide) {
-        vec3 wi = unpackUnit(photon.normal);
-        float from = dot(wi, n);
-        if (!(from > 0.0 && leaving > 0.0)) return false;
-        if (isDiffuse(material)) scattered *= diffuseArrival(scene, material, from);
-        scattered += evaluateGlossy(material, dot(direction, surface.normal) > 0.0, n, -direction, wi) * (PI / from);
+        bool behind = dot(direction, surface.normal) > 0.0;
+        vec3 wi = unpackUnit(photon.normal), normal = behind ? -surface.normal : surface.normal;
+        if (isDiffuse(material))
+            scattered *= weightOfArrival(scene, material, wi, normal, behind ? -surface.shading : surface.shading,
+                                         bulgeOn(surface, behind));
+        float pdf;
+        scattered += PI * evaluateGlossyAt(material, surface, direction, wi, pdf);
     }
     float solidAngle = pixelSolidAngle(scene.camera, args.size, dot(direction, scene.camera.forward));
     radiance = photon.color * scattered * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));

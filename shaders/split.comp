@@ -36,10 +36,10 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
 bool sendGatherRay(uint slot, Split from, Sampler s) {
     if (!gathers(from)) return false;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
+    float arrival = diffuseArrivalAt(args.scene.at[0], from.from, from.origin, dot(direction, from.shading));
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
     if (hasEndless) flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
-    float arrival = diffuseArrivalAt(args.scene.at[0], from.from, from.origin, dot(direction, from.shading));
     args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags, from.media);
     return true;
 }

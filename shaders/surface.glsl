@@ -16,6 +16,7 @@ struct Surface {
     uint light;
     uint primitive;
     float bulge; // on the side of the geometric normal: 0 if shading is flat; see terminator.glsl
+    bool mapped; // `shading` is that of a normal map, see normal_map.glsl
 };
 
 Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
@@ -38,7 +39,7 @@ Surface triangleSurface(DeviceScene scene, Primitive p, Hit hit) {
         }
     }
     return Surface(a + b + c, abs(p.a) + abs(p.b) + abs(p.c), normal, shading, p.material, p.light, hit.primitive,
-                   bulge);
+                   bulge, false);
 }
 
 // The hit point is projected onto the sphere, so that its error is that of a few roundings, not of t.
@@ -48,7 +49,7 @@ Surface sphereSurface(Primitive p, vec3 along, Hit hit) {
     vec3 normal = f / distance;
     vec3 position = along - spherePower(along, p.a, p.c) / (distance + p.b.x) * normal;
     return Surface(position, abs(position) + length(position - p.c), normal, normal, p.material, p.light, hit.primitive,
-                   0.0);
+                   0.0, false);
 }
 
 Surface surfaceAt(DeviceScene scene, Path path, Hit hit) {

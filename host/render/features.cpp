@@ -100,6 +100,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
     features.hasExactFresnel = glass && !settings.schlick;
     features.hasSchlickFresnel = glass && settings.schlick;
     features.hasTextures = anyMaterial([](const Material& m) { return m.textures != 0; });
+    features.hasNormalMaps = anyMaterial(
+        [&](const Material& m) { return m.textures != 0 && scene.textured.materials[m.textures - 1].normal != NONE; });
+    features.hasSmoothNormals |= features.hasNormalMaps;
+    features.hasSmoothDiffuse |= features.hasNormalMaps;
     features.hasOpacity = anyMaterial([](const Material& m) { return m.seeThrough > 0; });
     features.hasEmissionTextures = anyLight([](const Light& light) { return light.texture != 0; });
     features.hasManyLights = scene.lights.size() > 1;

@@ -115,6 +115,14 @@ public:
         if (!opacity.is_null()) to["opacity"] = opacity;
         if (cutoff) to["cutoff"] = *cutoff;
     }
+    void addNormalMap(json& to) {
+        auto info = material.find("normalTexture");
+        auto texture = info ? textures.read(*info, false) : std::nullopt;
+        if (!texture) return;
+        texture->erase("space");
+        (*texture)["strength"] = numberOr(info, "scale", 1, {-1000, 1000});
+        to["normalMap"] = *texture;
+    }
     void loseOpacity() {
         if (!opacity.is_null()) lose("the opacity of what emits is left out");
     }
@@ -166,7 +174,6 @@ private:
     }
 
     void noteLosses() {
-        if (material.find("normalTexture")) lose("a normal map is left out");
         for (const auto& [name, texture] : {std::pair{"transmission", "transmissionTexture"},
                                             {"volume", "thicknessTexture"},
                                             {"specular", "specularTexture"},
@@ -202,6 +209,7 @@ GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, GltfTextures tex
     const bool emits = result.radiance != vec3{0}; // glass may not, nor what is not opaque
     result.emission = surface.emissionTexture(result.radiance);
     result.material = surface.isGlass() && !emits ? surface.transparent(glass) : surface.opaque();
+    surface.addNormalMap(result.material);
     if (emits) surface.loseOpacity();
     else surface.addOpacity(result.material);
     return result;

@@ -107,12 +107,30 @@ void ShapeLoader::addCoordinates(const Reader& shape, const Surface& surface, co
     }
 }
 
+void ShapeLoader::warnOfFlatCoordinates(const Reader& shape, const Surface& surface, std::size_t first) {
+    const uint textured = isTextured(surface) ? scene.materials[surface.material].textures : 0;
+    const uint normal = textured != 0 ? scene.textured.materials[textured - 1].normal : NONE;
+    if (normal == NONE) return;
+    std::size_t flat = 0;
+    for (std::size_t i = first; i < scene.primitives.size(); ++i) {
+        const TexturePlaces& c = coordinates[scene.textured.textures[normal].set][i];
+        const glm::dvec2 b = glm::dvec2{c.b} - glm::dvec2{c.a}, d = glm::dvec2{c.c} - glm::dvec2{c.a};
+        flat += b.x * d.y - b.y * d.x == 0;
+    }
+    if (flat > 0)
+        shape.warn(scene.warnings,
+                   fmt::format("the texture coordinates of {} of its {} triangles span no area: its normal "
+                               "map turns nothing there",
+                               flat, scene.primitives.size() - first));
+}
+
 void ShapeLoader::requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface) {
     if (!isTextured(surface)) return;
     const uint textured = scene.materials[surface.material].textures;
     const MaterialTextures slots =
-        textured != 0 ? scene.textured.materials[textured - 1] : MaterialTextures{NONE, NONE, NONE, NONE};
-    for (const uint slot : {slots.color, slots.metallic, slots.roughness, slots.opacity, surface.emission}) {
+        textured != 0 ? scene.textured.materials[textured - 1] : MaterialTextures{NONE, NONE, NONE, NONE, NONE};
+    for (const uint slot :
+         {slots.color, slots.metallic, slots.roughness, slots.opacity, slots.normal, surface.emission}) {
         const uint set = slot == NONE ? 0 : scene.textured.textures[slot].set;
         if (slot == NONE || !mesh.coordinates[set].empty()) continue;
         return shape.warn(scene.warnings, fmt::format("its material has a texture, but the mesh no {} coordinates: all "
@@ -133,6 +151,7 @@ std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transf
     }
     const std::size_t dropped = count - (scene.primitives.size() - first);
     if (dropped == count) return dropped;
+    warnOfFlatCoordinates(shape, surface, first);
 
     std::vector<vec3> points;
     for (std::size_t i = first; i < scene.primitives.size(); ++i)

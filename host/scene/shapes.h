@@ -62,6 +62,7 @@ private:
     void addCoordinates(const Reader& shape, const Surface& surface, const TexturePlaces& first,
                         const TexturePlaces& second = {});
     void requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface);
+    void warnOfFlatCoordinates(const Reader& shape, const Surface& surface, std::size_t first);
     bool isTextured(const Surface& surface) const;
 
     void requireRoom(const Reader& shape) const;

@@ -34,18 +34,19 @@ uint readWrap(const Reader& reader) { return static_cast<uint>(reader.choice({"r
 
 vec3 Textures::color(const Reader& value, Range range, uint& slot) {
     if (!is(value)) return value.color(range);
-    slot = read(value, true, 0);
+    slot = read(value, Use::color, 0);
     return scene.textured.textures[slot].factor;
 }
 
 float Textures::number(const Reader& value, Range range, uint& slot, uint channel) {
     if (!is(value)) return value.number(range);
-    slot = read(value, false, channel);
+    slot = read(value, Use::number, channel);
     return std::min(greatest(scene.textured.textures[slot]), range.high);
 }
 
 uint Textures::place(const MaterialTextures& textures) {
-    if ((textures.color & textures.metallic & textures.roughness & textures.opacity) == NONE) return 0;
+    if ((textures.color & textures.metallic & textures.roughness & textures.opacity & textures.normal) == NONE)
+        return 0;
     scene.textured.materials.push_back(textures);
     return static_cast<uint>(scene.textured.materials.size());
 }
@@ -55,15 +56,20 @@ uint Textures::add(const Texture& texture) {
     return static_cast<uint>(scene.textured.textures.size() - 1);
 }
 
-uint Textures::read(Reader object, bool isColor, uint channel) {
+uint Textures::read(Reader object, Use use, uint channel) {
+    const bool isColor = use == Use::color;
     Texture texture{.channel = channel, .factor = vec3{1}, .u = {1, 0, 0}, .v = {0, -1, 1}};
     const Reader file = object.at("texture");
     const auto space = object.find("space"), wrap = object.find("wrap"), filter = object.find("filter"),
-               transform = object.find("transform"), set = object.find("uv"), factor = object.find("factor"),
-               channelReader = object.find("channel");
+               transform = object.find("transform"), set = object.find("uv");
+    const bool isNormal = use == Use::normal; // which has a strength in place of a factor and a channel
+    const auto factor = isNormal ? std::nullopt : object.find("factor"),
+               channelReader = isNormal ? std::nullopt : object.find("channel"),
+               strength = isNormal ? object.find("strength") : std::nullopt;
     TexelSpace kind = isColor ? TexelSpace::byFile : TexelSpace::linear;
     if (space) kind = space->choice({"srgb", "linear"}) == 0 ? TexelSpace::srgb : TexelSpace::linear;
     if (factor) texture.factor = isColor ? factor->color({0, 1e12f}) : vec3{factor->number({0, 1e12f})};
+    if (strength) texture.factor.x = texture.factor.y = strength->number({-1000, 1000});
     if (channelReader) {
         if (isColor) channelReader->fail("found the channel of a colour", "allowed where a number is meant");
         texture.channel = static_cast<uint>(channelReader->choice({"r", "g", "b", "a"}));

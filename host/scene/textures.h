@@ -20,6 +20,9 @@ public:
     /// it takes if it does not say it.
     float number(const Reader& value, Range range, uint& slot, uint channel = 0);
 
+    /// The index of a normal map.
+    uint normals(const Reader& value) { return read(value, Use::normal, 0); }
+
     /// Whether a value is a texture.
     static bool is(const Reader& value) { return value.isObject(); }
 
@@ -44,7 +47,9 @@ private:
         bool wide;
     };
 
-    uint read(Reader object, bool isColor, uint channel);
+    enum class Use { color, number, normal };
+
+    uint read(Reader object, Use use, uint channel);
     Stored store(const Reader& place, const std::string& name, std::string_view bytes, TexelSpace space);
     std::vector<uint> tables() const;
     float greatest(const Texture& texture) const;

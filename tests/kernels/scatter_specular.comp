@@ -9,6 +9,7 @@ ScatterValues scatter(ScatterCase x) {
     Surface surface; // of which scattering reads the normals alone
     surface.normal = x.normal;
     surface.shading = x.shading;
+    surface.mapped = false;
     Scattering s = scatterDelta(x.material, surface, x.direction, x.u);
     return ScatterValues(s.direction, s.weight, s.normal, s.radianceScale);
 }
