@@ -255,7 +255,8 @@ bool isWide(Material m) { return hasWide && m.wide != 0u; }
 // Whether photons that are connected to the camera are seen by that lobe: it sends no light through.
 bool reflectsWide(Material m) { return isWide(m) && (DIELECTRIC_KINDS >> m.kind & 1u) == 0u; }
 
-// Scattering by any lobe but the diffuse one; `accepted` is a choice of mapped normals. (The constants beside the questions are what plain kernels are cut by.)
+// Scattering by any lobe but the diffuse one; `accepted` is a choice of mapped normals. (The constants beside the
+// questions are what plain kernels are cut by.)
 Scattering scatterSpecular(Material m, Surface s, vec3 d, vec3 u, float accepted) {
     if (hasMedia && isPassage(m))
         return Scattering(d, m.color, dot(d, s.normal) > 0.0 ? -s.normal : s.normal, 1.0, 0.0);

@@ -4,8 +4,8 @@
 // terminator.glsl, so that none is lost. Other lobes scatter about the mapped normal. To turn them alone gains light or
 // loses it (Veach 1997, section 5.3), and products of the weights of photons grow without bound. So an event is kept
 // with a probability, which makes the function of scattering the same both ways and its whole one, and light of events
-// that are not kept returns the way it came, as from two facets of a groove. Where Schuessler et al. (2017) let it go on
-// to a facet beside, what it first meets is about the same.
+// that are not kept returns the way it came, as from two facets of a groove. Where Schuessler et al. (2017) let it go
+// on to a facet beside, what it first meets is about the same.
 #ifndef NORMAL_MAP_GLSL
 #define NORMAL_MAP_GLSL
 #include "common.glsl"

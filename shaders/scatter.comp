@@ -126,8 +126,9 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     if (!aimed) {
         photon = photonAt(base, surface, geometric, 0.0);
         if (mapped)
-            photon.color = path.throughput * weightOfArrival(scene, material, -path.direction, geometric,
-                                                             behind ? -surface.shading : surface.shading, -1.0) /
+            photon.color = path.throughput *
+                           weightOfArrival(scene, material, -path.direction, geometric,
+                                           behind ? -surface.shading : surface.shading, -1.0) /
                            max(abs(dot(path.direction, geometric)), 1e-6);
         else photon.color *= diffuseArrival(scene, material, cosine);
         if (maxComponent(photon.color) > 0.0) path.flags += 1u << PATH_DIFFUSE_SHIFT;

@@ -57,7 +57,8 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
 
     float cosine = abs(dot(direction, surface.normal));
     vec3 scattered = vec3(0.0); // pi times what is scattered of the light
-    if (isDiffuse(material)) scattered = diffuseAlbedo(scene, material, -dot(direction, scatteringNormal(surface, direction)));
+    if (isDiffuse(material))
+        scattered = diffuseAlbedo(scene, material, -dot(direction, scatteringNormal(surface, direction)));
     if (wide) {
         bool behind = dot(direction, surface.normal) > 0.0;
         vec3 wi = unpackUnit(photon.normal), normal = behind ? -surface.normal : surface.normal;

@@ -1,5 +1,6 @@
 /// Labels of events in a room with all of them: each layer by photons is that of the path tracer, and which label gloss
 /// has changes no beauty.
+#include "draw.h"
 #include "render_support.h"
 #include <gtest/gtest.h>
 
@@ -42,6 +43,7 @@ void expectSame(Estimate a, Estimate b, double noise, double bias, const std::st
 }
 
 TEST(Labels, AreThoseOfThePathTracer) {
+    SKIP_UNLESS_DRAWN(0);
     const std::vector<Estimate>& photon = byPhotons();
     const std::vector<Estimate> path = means(room(), INTEGRATOR_PATH, 128);
     const std::vector<Estimate> direct = means(room(), INTEGRATOR_DIRECT, 16);
@@ -56,6 +58,7 @@ TEST(Labels, AreThoseOfThePathTracer) {
 }
 
 TEST(Labels, MoveNoBeauty) {
+    SKIP_UNLESS_DRAWN(1);
     for (const float wideAlpha : {0.1f, 0.5f})
         expectSame(means(room(wideAlpha), INTEGRATOR_PHOTON, 24).back(), byPhotons().back(), 0.02, 0.003,
                    std::to_string(wideAlpha));

@@ -304,13 +304,14 @@ TEST(Textures, ModelsHaveTheirs) {
     EXPECT_EQ(red(materialsAt(scene, 0, {{0.8f, 0.1f}})[0]), srgb(20)); // -> (.9, .1)
 
     file["materials"] = json::parse(R"([{"emissiveFactor": [0.5, 1, 1], "emissiveTexture": {"index": 1, "texCoord": 1},
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 6}}, "normalTexture": {"index": 0}}])");
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 6}}, "normalTexture": {"index": 0, "scale": 0.5}}])");
     scene = load();
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.textured.textures[0].factor, vec3(3, 6, 6));
     EXPECT_EQ(scene.textured.textures[0].set, 1u);
     EXPECT_EQ(scene.textured.sets, 2u);
-    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("a normal map is left out")));
+    ASSERT_EQ(scene.textured.materials.size(), 1u);
+    EXPECT_EQ(scene.textured.textures[scene.textured.materials[0].normal].factor, vec3(0.5f, 0.5f, 1));
     file["materials"][0]["emissiveTexture"]["index"] = 2;
     EXPECT_THAT(load().warnings, testing::Contains(HasSubstr("neither PNG nor JPEG (KTX2, WebP) are left out")));
     file["materials"][0]["emissiveTexture"]["index"] = 3;
