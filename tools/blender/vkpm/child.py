@@ -1,0 +1,42 @@
+"""Exports a scene in a Blender of its own, since the one that renders must not change while it does. Arguments: the file that
+holds the scene, its name, its view layer, the frame, the part of a frame, and the scene file to write. Beside it
+export.json says how that went: {"warnings": [...]} or {"error": ...}."""
+
+import json
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+
+def export(blend, name, layer, frame, part, file):
+    from vkpm.export import write_scene
+
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(blend) as (there, here):
+        here.scenes = [name]
+    scene = here.scenes[0]
+    window = bpy.context.window_manager.windows[0]
+    window.scene = scene
+    if layer in scene.view_layers:
+        window.view_layer = scene.view_layers[layer]
+    scene.frame_set(int(frame), subframe=float(part))
+    with bpy.context.temp_override(window=window, scene=scene, view_layer=window.view_layer):
+        return write_scene(scene, bpy.context.evaluated_depsgraph_get(), file)
+
+
+def main(arguments):
+    answer = Path(arguments[-1]).with_name("export.json")
+    try:
+        result = {"warnings": export(*arguments)}
+    except Exception as error:  # whatever it is, the Blender that waits has to say it
+        traceback.print_exc()
+        result = {"error": str(error)}
+    answer.write_text(json.dumps(result))
+
+
+if __name__ == "__main__":
+    main(sys.argv[sys.argv.index("--") + 1 :])
