@@ -23,5 +23,3 @@ def register():
 def unregister():
     for module in reversed(MODULES):
         module.unregister()
-
-

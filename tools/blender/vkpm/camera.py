@@ -12,7 +12,9 @@ class Unsupported(Exception):
 def film_size(scene):
     """Pixels, width and height."""
     render = scene.render
-    return [max(1, int(side * render.resolution_percentage / 100)) for side in (render.resolution_x, render.resolution_y)]
+    return [
+        max(1, int(side * render.resolution_percentage / 100)) for side in (render.resolution_x, render.resolution_y)
+    ]
 
 
 def vertical_angle(data, size):
@@ -45,7 +47,9 @@ def write_camera(scene, camera, warnings):
         raise Unsupported("the scene has no camera; add one (Add > Camera) and make it the scene's")
     data, size = camera.data, film_size(scene)
     if data.type != "PERSP":
-        raise Unsupported(f'the camera "{camera.name}" is not a perspective one, which vkpm has alone; set its Type to Perspective')
+        raise Unsupported(
+            f'the camera "{camera.name}" is not a perspective one, which vkpm has alone; set its Type to Perspective'
+        )
     if data.shift_x or data.shift_y:
         warnings.append("the camera's shift is left out: vkpm looks along the camera's axis")
     if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:

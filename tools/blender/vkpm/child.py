@@ -1,6 +1,6 @@
-"""Exports a scene in a Blender of its own, since the one that renders must not change while it does. Arguments: the file that
-holds the scene, its name, its view layer, the frame, the part of a frame, and the scene file to write. Beside it
-export.json says how that went: {"warnings": [...]} or {"error": ...}."""
+"""Exports a scene in a Blender of its own, since the one that renders must not change while it does. Arguments: the
+file that holds the scene, its name, its view layer, the frame, the part of a frame, and the scene file to write. Beside
+it export.json says how that went: {"warnings": [...]} or {"error": ...}."""
 
 import json
 import sys
@@ -10,13 +10,12 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from vkpm.export import write_scene
 
 
 def export(blend, name, layer, frame, part, file):
-    from vkpm.export import write_scene
-
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    with bpy.data.libraries.load(blend) as (there, here):
+    with bpy.data.libraries.load(blend) as (_, here):
         here.scenes = [name]
     scene = here.scenes[0]
     window = bpy.context.window_manager.windows[0]

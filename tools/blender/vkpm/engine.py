@@ -27,9 +27,8 @@ class Failed(Exception):
 def _child_command(blend, depsgraph, scene_file):
     script = str(Path(__file__).with_name("child.py"))
     scene = depsgraph.scene
-    arguments = [
-        str(blend), scene.name, depsgraph.view_layer.name, str(scene.frame_current), str(scene.frame_subframe), str(scene_file),
-    ]  # fmt: skip
+    frame = scene.frame_current, scene.frame_subframe
+    arguments = [str(value) for value in (blend, scene.name, depsgraph.view_layer.name, *frame, scene_file)]
     if bpy.app.binary_path:
         return [bpy.app.binary_path, "--background", "--factory-startup", "--python", script, "--", *arguments]
     return [sys.executable, script, "--", *arguments]  # Blender as a module of Python
@@ -42,7 +41,12 @@ def export(depsgraph, folder):
     answer = folder / "export.json"
     answer.unlink(missing_ok=True)
     done = subprocess.run(
-        _child_command(blend, depsgraph, scene_file), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+        _child_command(blend, depsgraph, scene_file),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        check=False,
+        text=True,
+        errors="replace",
     )
     if not answer.exists():
         raise Failed(f"the export ended with {done.returncode}: {(done.stderr or done.stdout).strip()[-400:]}")

@@ -1,4 +1,4 @@
-"""Scenes for vkpm: the meshes and textures as Blender's glTF exporter writes them, and a scene file that adds what it loses."""
+"""Scenes for vkpm: meshes and textures as Blender's glTF exporter writes them, and a scene file with what it loses."""
 
 import json
 import struct
@@ -94,8 +94,7 @@ def _lamps(depsgraph):
 
 
 def write_scene(scene, depsgraph, file):
-    """Writes a scene into file, a .json, with what it needs beside it in the same folder; returns warnings. Raises
-    Unsupported and OSError."""
+    """Writes a scene into a .json file, with what it needs beside it; returns warnings. Raises Unsupported, OSError."""
     file, warnings = Path(file), []
     folder = file.parent
     model = file.with_suffix(".glb")
@@ -111,7 +110,11 @@ def write_scene(scene, depsgraph, file):
     environment = write_world(scene, folder, warnings)
     _export_gltf(model)
     _patch(model, emissions)
-    document = {"about": f"{scene.name}, exported from Blender", **document, "import": {"file": model.name, "lights": "unitless"}}
+    document = {
+        "about": f"{scene.name}, exported from Blender",
+        **document,
+        "import": {"file": model.name, "lights": "unitless"},
+    }
     for key, value in (("environment", environment), ("materials", materials), ("lights", lights), ("shapes", shapes)):
         if value:
             document[key] = value

@@ -1,4 +1,4 @@
-"""Reading of the OpenEXR files that vkpm writes: one part, rows from above, ZIP; Blender's own reader keeps Combined alone."""
+"""Reading of the OpenEXR files that vkpm writes, one part, ZIP; Blender's own reader gives scripts Combined alone."""
 
 import struct
 import zlib

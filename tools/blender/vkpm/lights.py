@@ -59,8 +59,8 @@ def _point(light, matrix, power):
 
 
 def _cones(light):
-    """Half angles. Cycles' rim is a smooth step of the cosine, vkpm's the square of a line: of three quarters of its width
-    both lose the same flux."""
+    """Half angles. Cycles' rim is a smooth step of the cosine, vkpm's the square of a line: of three quarters of its
+    width both lose the same flux."""
     outer = min(light.spot_size / 2, math.pi / 2)
     rim = 0.75 * light.spot_blend * (1 - math.cos(outer))
     return {"outer": degrees(outer), "inner": min(degrees(math.acos(math.cos(outer) + rim)), degrees(outer))}
@@ -112,7 +112,7 @@ def _disc(center, first, second):
 
 
 def write_lights(instances, folder, warnings):
-    """The keys "lights" and "shapes" of lamps, pairs of an object and its matrix; meshes of round ones go into the folder."""
+    """The keys "lights" and "shapes" of lamps, objects with matrices; round ones are files in the folder."""
     lights, shapes = [], []
     for thing, matrix in instances:
         light, name = thing.data, thing.name

@@ -1,5 +1,5 @@
-"""Blender's materials as vkpm's, where glTF has no word for them: solid glass, metal without a diffuse part, mixes, what
-absorbs, and light. Others are as Blender's exporter writes them."""
+"""Blender's materials as vkpm's, where glTF has no word for them: solid glass, metal without a diffuse part, mixes,
+what absorbs, and light. Others are as Blender's exporter writes them."""
 
 import math
 from dataclasses import dataclass, field
@@ -50,7 +50,12 @@ def _complete(material):
 
 def _glass(node):
     surface = _complete(
-        {"type": "glass", "ior": nodes.constant(node, "IOR"), "tint": _colour(node, "Color"), "roughness": _roughness(node)}
+        {
+            "type": "glass",
+            "ior": nodes.constant(node, "IOR"),
+            "tint": _colour(node, "Color"),
+            "roughness": _roughness(node),
+        }
     )
     if surface.material:
         surface.material["tint"] = _clamped(surface.material["tint"])
@@ -60,7 +65,7 @@ def _glass(node):
 
 
 def _glossy(node):
-    """Reflects the same from all sides: a mirror. Where it is rough there is only metal, which is brighter at the rim."""
+    """Reflects the same from all sides: a mirror. What is rough is metal, which is brighter at the rim."""
     shade, roughness = _colour(node, "Color"), _roughness(node)
     if shade is None or roughness is None:
         return Surface(known=False)
@@ -90,14 +95,23 @@ def _principled(node):
     """Glass if most of it transmits, else the exporter's; what it emits in any case."""
     shade, strength = _colour(node, "Emission Color", "Emission"), nodes.constant(node, "Emission Strength")
     emission = times(shade, strength) if shade is not None and strength is not None else None
-    transmission, metallic = nodes.constant(node, "Transmission Weight", "Transmission"), nodes.constant(node, "Metallic")
+    transmission, metallic = (
+        nodes.constant(node, "Transmission Weight", "Transmission"),
+        nodes.constant(node, "Metallic"),
+    )
     if not transmission or transmission < 0.5 or metallic is None or metallic >= 0.5:
         return Surface(emission=emission, known=False)
     tint, alpha = _colour(node, "Base Color"), nodes.constant(node, "Alpha")
     if tint is not None and bpy.app.version >= (4, 0, 0):
         tint = [math.sqrt(value) for value in tint]  # the colour is that of both faces together
     surface = _complete(
-        {"type": "glass", "ior": nodes.constant(node, "IOR"), "tint": tint, "roughness": _roughness(node), "opacity": alpha}
+        {
+            "type": "glass",
+            "ior": nodes.constant(node, "IOR"),
+            "tint": tint,
+            "roughness": _roughness(node),
+            "opacity": alpha,
+        }
     )
     if surface.material:
         surface.material["tint"] = _clamped(surface.material["tint"])
@@ -150,9 +164,7 @@ def _coated(by, below, above):
     if below is None or above is None or below.type != "BSDF_DIFFUSE" or "GLOSSY" not in above.type:
         return Surface(known=False, lost=["a mix by an angle is left out, but for a Diffuse BSDF below a Glossy BSDF"])
     ior = nodes.constant(by, "IOR") if by.type == "FRESNEL" else 1.5
-    return _complete(
-        {"type": "plastic", "albedo": _colour(below, "Color"), "ior": ior, "roughness": _roughness(above)}
-    )
+    return _complete({"type": "plastic", "albedo": _colour(below, "Color"), "ior": ior, "roughness": _roughness(above)})
 
 
 def _add(node):
@@ -162,7 +174,7 @@ def _add(node):
     if len(bodies) == 2:
         bodies[0].lost.append("of a sum of two shaders the first is taken for the whole")
     result = bodies[0] if bodies else first
-    result.emission = [sum(values) for values in zip(*lights)] if lights else None
+    result.emission = [sum(values) for values in zip(*lights, strict=True)] if lights else None
     return result
 
 
@@ -214,10 +226,8 @@ def read_material(material, is_closed, warnings):
         return None, None
     volume = nodes.source(output.inputs["Volume"])
     shader = nodes.source(output.inputs["Surface"])
-    if shader is None and volume is not None:
-        surface = Surface({"type": "glass", "ior": 1.0})
-    else:
-        surface = _of(shader)
+    is_volume = shader is None and volume is not None
+    surface = Surface({"type": "glass", "ior": 1.0}) if is_volume else _of(shader)
     if surface.material and surface.material["type"] == "glass":
         if not is_closed:
             surface.material["thin"] = True

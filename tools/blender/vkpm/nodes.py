@@ -23,8 +23,8 @@ def source(socket):
 
 
 def constant(node, *names):
-    """The value of the first input of one of these names, linked values of RGB and Value nodes included; None if another
-    node computes it or there is no such input."""
+    """The value of the first input of one of these names, also by an RGB or Value node; None if another node computes
+    it or there is no such input."""
     socket = next((node.inputs[name] for name in names if name in node.inputs), None)
     if socket is None:
         return None
@@ -33,6 +33,4 @@ def constant(node, *names):
         return socket.default_value
     if other.type in ("RGB", "VALUE"):
         return other.outputs[0].default_value
-    if other.type == "BLACKBODY" and source(other.inputs[0]) is None:
-        return None
     return None

@@ -1,5 +1,7 @@
 """The settings of a render, and which of Blender's panels show beside them."""
 
+from typing import ClassVar
+
 import bpy
 
 INTEGRATORS = [
@@ -32,19 +34,31 @@ class Settings(bpy.types.PropertyGroup):
     """Of one scene."""
 
     program: bpy.props.StringProperty(
-        name="Program", subtype="FILE_PATH", description="The program vkpm; empty: vkpm in PATH, or that of the source tree"
+        name="Program",
+        subtype="FILE_PATH",
+        description="The program vkpm; empty: vkpm in PATH, or that of the source tree",
     )
     integrator: bpy.props.EnumProperty(name="Integrator", items=INTEGRATORS, description="How light is found")
     passes: bpy.props.IntProperty(name="Passes", min=1, max=1_000_000, default=64, description="Over the whole image")
-    time: bpy.props.FloatProperty(name="Time", min=0, subtype="TIME", unit="TIME_ABSOLUTE", description="Seconds after which it ends; 0: no limit")
+    time: bpy.props.FloatProperty(
+        name="Time", min=0, subtype="TIME", unit="TIME_ABSOLUTE", description="Seconds after which it ends; 0: no limit"
+    )
     target_error: bpy.props.FloatProperty(
-        name="Target error", min=0, max=10, precision=3, description="Relative error at which it ends, 0.05 for 5 %; 0: none"
+        name="Target error",
+        min=0,
+        max=10,
+        precision=3,
+        description="Relative error at which it ends, 0.05 for 5 %; 0: none",
     )
     photons: bpy.props.IntProperty(
         name="Photons", min=0, max=100_000_000, default=50_000, description="Emitted in each pass"
     )
     caustic_photons: bpy.props.IntProperty(
-        name="Caustic photons", min=0, max=100_000_000, default=50_000, description="Aimed at glass and metal in each pass"
+        name="Caustic photons",
+        min=0,
+        max=100_000_000,
+        default=50_000,
+        description="Aimed at glass and metal in each pass",
     )
     seed: bpy.props.IntProperty(name="Seed", min=0, description="Of the random numbers")
     folder: bpy.props.StringProperty(
@@ -73,7 +87,7 @@ class VKPM_PT_settings(bpy.types.Panel):
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "render"
-    COMPAT_ENGINES = {"VKPM"}
+    COMPAT_ENGINES: ClassVar = {"VKPM"}
 
     @classmethod
     def poll(cls, context):

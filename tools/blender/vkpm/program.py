@@ -11,8 +11,7 @@ SOURCE_TREE = Path(__file__).resolve().parents[3] / "build/release/vkpm"
 
 
 def find(path):
-    """The program: the path that is given, or vkpm in PATH, or that of the source tree around this add-on; None if there is
-    none."""
+    """The program: the path that is given, or vkpm in PATH, or that of the source tree around this add-on; or None."""
     if path:
         found = Path(path).expanduser()
         return str(found) if found.is_file() and os.access(found, os.X_OK) else None
@@ -27,7 +26,17 @@ class Render:
     def __init__(self, program, scene, arguments):
         self.picture, self.log = scene.with_suffix(".exr"), scene.with_suffix(".jsonl")
         self.said = scene.with_suffix(".txt")
-        command = [program, "--scene", str(scene), "-o", str(self.picture), "--log", str(self.log), "--quiet", *arguments]
+        command = [
+            program,
+            "--scene",
+            str(scene),
+            "-o",
+            str(self.picture),
+            "--log",
+            str(self.log),
+            "--quiet",
+            *arguments,
+        ]
         self.read = 0
         self.log.unlink(missing_ok=True)
         with open(self.said, "wb") as said:

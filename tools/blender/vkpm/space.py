@@ -24,7 +24,7 @@ def times(values, factor):
 
 
 def product(first, second):
-    return [a * b for a, b in zip(first, second)]
+    return [a * b for a, b in zip(first, second, strict=True)]
 
 
 def degrees(radians):

@@ -36,7 +36,7 @@ def _turn(image):
         mapping = nodes.source(mapping.inputs["Vector"])
     if mapping is None:
         return angle
-    return angle if mapping.type in ("TEX_COORD", "NEW_GEOMETRY") and mapping.type == "TEX_COORD" else None
+    return angle if mapping.type == "TEX_COORD" else None
 
 
 def _image_file(image):
@@ -62,8 +62,12 @@ def _from_image(node, strength, folder):
 
 def _baked(world, folder, warnings):
     """An environment that Cycles renders, from all around."""
-    if "CYCLES" not in {kind.bl_idname for kind in bpy.types.RenderEngine.__subclasses__() if hasattr(kind, "bl_idname")}:
-        warnings.append("the world's nodes are left out: they take Cycles, which is not enabled (Preferences > Add-ons)")
+    if "CYCLES" not in {
+        kind.bl_idname for kind in bpy.types.RenderEngine.__subclasses__() if hasattr(kind, "bl_idname")
+    }:
+        warnings.append(
+            "the world's nodes are left out: they take Cycles, which is not enabled (Preferences > Add-ons)"
+        )
         return {"radiance": colour(world.color)}
     scene, data = bpy.data.scenes.new("vkpm world"), bpy.data.cameras.new("vkpm world")
     camera = bpy.data.objects.new("vkpm world", data)
@@ -95,10 +99,7 @@ def write_world(scene, folder, warnings):
     world = scene.world
     if world is None:
         return None
-    if not world.use_nodes:
-        result = {"radiance": colour(world.color)}
-    else:
-        result = _from_nodes(world, folder, warnings)
+    result = _from_nodes(world, folder, warnings) if world.use_nodes else {"radiance": colour(world.color)}
     if result is None:
         return None
     if scene.render.film_transparent:
