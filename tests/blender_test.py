@@ -35,7 +35,7 @@ import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(ROOT / "tools/blender"))
 import vkpm  # noqa: E402
-from vkpm import exr, export  # noqa: E402
+from vkpm import export, exr  # noqa: E402
 
 # Scenes.
 
