@@ -13,6 +13,22 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from vkpm.export import write_scene
 
 
+def show_as_rendered(scene, layer):
+    """What the exporter sees is what viewports show: makes that what renders show."""
+    for collection in bpy.data.collections:
+        collection.hide_viewport = collection.hide_render
+    for thing in layer.objects:
+        thing.hide_viewport = thing.hide_render
+        thing.hide_set(False, view_layer=layer)
+        for modifier in thing.modifiers:
+            modifier.show_viewport = modifier.show_render
+            if modifier.type in ("SUBSURF", "MULTIRES"):
+                modifier.levels = modifier.render_levels
+        if thing.type == "META":
+            thing.data.resolution = thing.data.render_resolution
+    scene.render.simplify_subdivision = scene.render.simplify_subdivision_render
+
+
 def export(blend, name, layer, frame, part, file):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     with bpy.data.libraries.load(blend) as (_, here):
@@ -22,6 +38,7 @@ def export(blend, name, layer, frame, part, file):
     window.scene = scene
     if layer in scene.view_layers:
         window.view_layer = scene.view_layers[layer]
+    show_as_rendered(scene, window.view_layer)
     scene.frame_set(int(frame), subframe=float(part))
     with bpy.context.temp_override(window=window, scene=scene, view_layer=window.view_layer):
         return write_scene(scene, bpy.context.evaluated_depsgraph_get(), file)

@@ -14,6 +14,8 @@ from .materials import read_material
 from .world import write_world
 
 GLB, JSON_CHUNK = 0x46546C67, 0x4E4F534A
+SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+EMISSION = "KHR_materials_emissive_strength"
 
 
 def _export_gltf(file):
@@ -53,12 +55,13 @@ def write_glb(file, document, rest):
 
 def set_emission(material, emission):
     """Writes a radiance into a material of glTF, from both sides as Blender's is."""
+    for key in ("emissiveTexture", "emissiveFactor"):
+        material.pop(key, None)
     strength = max(emission)
-    extensions = material.setdefault("extensions", {})
-    material.pop("emissiveTexture", None)
-    material["emissiveFactor"] = [value / strength if strength > 0 else 0.0 for value in emission]
-    extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
-    material["doubleSided"] = True
+    if strength > 0:
+        material["emissiveFactor"] = [value / strength for value in emission]
+        material.setdefault("extensions", {})[EMISSION] = {"emissiveStrength": strength}
+        material["doubleSided"] = True
 
 
 def _is_closed(mesh):
@@ -68,12 +71,24 @@ def _is_closed(mesh):
     return len(mesh.edges) > 0 and bool(np.all(np.bincount(edges, minlength=len(mesh.edges)) == 2))
 
 
+def _left_out(depsgraph):
+    """What the exporter takes no notice of."""
+    lost = {}
+    for instance in depsgraph.object_instances:
+        thing = instance.object
+        if instance.is_instance and instance.parent.type != "EMPTY" and thing.type in SURFACES:
+            lost[f'what "{instance.parent.name}" scatters is left out; make it real (Object > Apply)'] = None
+        elif thing.type not in (*SURFACES, "LIGHT", "CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"):
+            lost[f'"{thing.name}" is left out: vkpm has no equal for the kind {thing.type}'] = None
+    return list(lost)
+
+
 def _used_materials(depsgraph):
     """The materials of what is rendered, with whether all meshes that have them are closed."""
     found, meshes = {}, {}
     for instance in depsgraph.object_instances:
         thing = instance.object
-        if thing.type not in ("MESH", "CURVE", "SURFACE", "FONT", "META") or thing.original.hide_render:
+        if thing.type not in SURFACES or thing.original.hide_render:
             continue
         for slot in thing.material_slots:
             if slot.material is None:
@@ -99,6 +114,7 @@ def write_scene(scene, depsgraph, file):
     folder = file.parent
     model = file.with_suffix(".glb")
     document = write_camera(scene, scene.camera, warnings)
+    warnings += _left_out(depsgraph)
     materials, emissions = {}, {}
     for name, (material, is_closed) in _used_materials(depsgraph).items():
         its, emission = read_material(material, is_closed, warnings)
@@ -131,6 +147,8 @@ def _patch(model, emissions):
         emission = emissions.get(material.get("name"))
         if emission is not None:
             set_emission(material, emission)
+    if any(map(any, emissions.values())):
+        document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), EMISSION})
     write_glb(model, document, rest)
 
 

@@ -16,7 +16,6 @@ class Surface:
 
     material: dict | None = None
     emission: list | None = None
-    known: bool = True  # False: the exporter's, whatever that is
     lost: list = field(default_factory=list)
 
 
@@ -43,9 +42,13 @@ def _is_compensated(node):
     return getattr(node, "distribution", "").startswith("MULTI")
 
 
-def _complete(material):
-    """As the exporter wrote it, if a texture decides on a value."""
-    return Surface(known=False) if None in material.values() else Surface(material)
+def _complete(material, node):
+    """As the exporter wrote it, if a texture decides on a value; of nodes but Principled it takes no notice."""
+    if None not in material.values():
+        return Surface(material)
+    if node.type == "BSDF_PRINCIPLED":
+        return Surface()
+    return Surface(lost=[f"what its {node.bl_label} has of textures is left out; take a Principled BSDF"])
 
 
 def _glass(node):
@@ -55,7 +58,8 @@ def _glass(node):
             "ior": nodes.constant(node, "IOR"),
             "tint": _colour(node, "Color"),
             "roughness": _roughness(node),
-        }
+        },
+        node,
     )
     if surface.material:
         surface.material["tint"] = _clamped(surface.material["tint"])
@@ -68,7 +72,7 @@ def _glossy(node):
     """Reflects the same from all sides: a mirror. What is rough is metal, which is brighter at the rim."""
     shade, roughness = _colour(node, "Color"), _roughness(node)
     if shade is None or roughness is None:
-        return Surface(known=False)
+        return _complete({"": None}, node)
     if roughness * roughness < 1e-3:
         return Surface({"type": "mirror", "reflectance": _clamped(shade)})
     metal = {"type": "metal", "reflectance": _clamped(shade), "roughness": roughness}
@@ -83,12 +87,12 @@ def _glossy(node):
 def _metallic(node):
     """Of the F82 kind: metal whose edge is as Schlick has it. Measured indices are left to the exporter."""
     if getattr(node, "fresnel_type", "") != "F82":
-        return Surface(known=False, lost=["a Metallic BSDF by measured indices is left out; choose F82 Tint"])
-    return _complete({"type": "metal", "reflectance": _colour(node, "Base Color"), "roughness": _roughness(node)})
+        return Surface(lost=["a Metallic BSDF by measured indices is left out; choose F82 Tint"])
+    return _complete({"type": "metal", "reflectance": _colour(node, "Base Color"), "roughness": _roughness(node)}, node)
 
 
 def _diffuse(node):
-    return _complete({"type": "diffuse", "albedo": _colour(node, "Color")})
+    return _complete({"type": "diffuse", "albedo": _colour(node, "Color")}, node)
 
 
 def _principled(node):
@@ -100,7 +104,7 @@ def _principled(node):
         nodes.constant(node, "Metallic"),
     )
     if not transmission or transmission < 0.5 or metallic is None or metallic >= 0.5:
-        return Surface(emission=emission, known=False)
+        return Surface(emission=emission)
     tint, alpha = _colour(node, "Base Color"), nodes.constant(node, "Alpha")
     if tint is not None and bpy.app.version >= (4, 0, 0):
         tint = [math.sqrt(value) for value in tint]  # the colour is that of both faces together
@@ -111,7 +115,8 @@ def _principled(node):
             "tint": tint,
             "roughness": _roughness(node),
             "opacity": alpha,
-        }
+        },
+        node,
     )
     if surface.material:
         surface.material["tint"] = _clamped(surface.material["tint"])
@@ -125,7 +130,7 @@ def _principled(node):
 def _emission(node):
     shade, strength = _colour(node, "Color"), nodes.constant(node, "Strength")
     if shade is None or strength is None:
-        return Surface(known=False)
+        return Surface()
     return Surface(dict(BLACK), times(shade, strength))
 
 
@@ -146,7 +151,7 @@ def _mix(node):
         return _coated(by, first, second)
     part = nodes.constant(node, "Fac", "Factor")
     if part is None:
-        return Surface(known=False, lost=["a mix by a texture is left out"])
+        return Surface(lost=["a mix by a texture is left out"])
     if part <= 0 or part >= 1:
         return _of(first if part <= 0 else second)
     if any(clear):
@@ -162,9 +167,10 @@ def _mix(node):
 def _coated(by, below, above):
     """A gloss over something diffuse: plastic."""
     if below is None or above is None or below.type != "BSDF_DIFFUSE" or "GLOSSY" not in above.type:
-        return Surface(known=False, lost=["a mix by an angle is left out, but for a Diffuse BSDF below a Glossy BSDF"])
+        return Surface(lost=["a mix by an angle is left out, but for a Diffuse BSDF below a Glossy BSDF"])
     ior = nodes.constant(by, "IOR") if by.type == "FRESNEL" else 1.5
-    return _complete({"type": "plastic", "albedo": _colour(below, "Color"), "ior": ior, "roughness": _roughness(above)})
+    plastic = {"type": "plastic", "albedo": _colour(below, "Color"), "ior": ior, "roughness": _roughness(above)}
+    return _complete(plastic, above)
 
 
 def _add(node):
@@ -201,7 +207,7 @@ def _of(node):
     if node is None:
         return Surface(dict(BLACK))
     if node.type not in KINDS:
-        return Surface(known=False, lost=[f"vkpm has no equal for the node {node.bl_label}"])
+        return Surface(lost=[f"vkpm has no equal for the node {node.bl_label}"])
     return KINDS[node.type](node)
 
 
