@@ -255,6 +255,9 @@ def check_lights(folder: Path) -> None:
     (area,) = document["shapes"]
     close(area["emission"], [7 / ((math.pi if bpy.app.version >= (4, 0, 0) else 4) * 3)] * 3)
     close(np.cross(*area["edges"]), [0, -3, 0])  # shines down
+    again = folder / "again.json"
+    assert bpy.ops.export_scene.vkpm(filepath=str(again)) == {"FINISHED"}
+    assert json.loads(again.read_text())["lights"] == document["lights"]
 
 
 def check_materials(folder: Path) -> None:

@@ -111,7 +111,6 @@ def _lamps(depsgraph):
 def write_scene(scene, depsgraph, file):
     """Writes a scene into a .json file, with what it needs beside it; returns warnings. Raises Unsupported, OSError."""
     file, warnings = Path(file), []
-    folder = file.parent
     model = file.with_suffix(".glb")
     document = write_camera(scene, scene.camera, warnings)
     warnings += _left_out(depsgraph)
@@ -122,8 +121,8 @@ def write_scene(scene, depsgraph, file):
             materials[name] = its
         if emission is not None:
             emissions[name] = emission
-    lights, shapes = write_lights(_lamps(depsgraph), folder, warnings)
-    environment = write_world(scene, folder, warnings)
+    lights, shapes = write_lights(_lamps(depsgraph), file, warnings)
+    environment = write_world(scene, file, warnings)
     _export_gltf(model)
     _patch(model, emissions)
     document = {

@@ -5,7 +5,7 @@ import math
 import bpy
 
 from . import nodes
-from .space import axis, colour, degrees, place, product, times
+from .space import axis, beside, colour, degrees, place, product, times
 
 DISC_CORNERS = 64
 
@@ -78,7 +78,7 @@ def _height(light):
     return light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
 
 
-def _area(light, matrix, power, name, folder):
+def _area(light, matrix, power, name, file):
     """L = P / (pi A) on one side; before Blender 4.0 Cycles has P / (4 A)."""
     first, second = _sides(light, matrix)
     is_round = light.shape in ("DISK", "ELLIPSE")
@@ -93,7 +93,6 @@ def _area(light, matrix, power, name, folder):
             edges=[place(first), place(second)],
         )
         return shape
-    file = folder / f"lamp_{len(list(folder.glob('lamp_*.obj')))}.obj"
     file.write_text(_disc(matrix.translation, first / 2, second / 2))
     shape.update(type="mesh", file=file.name, smooth=False)
     return shape
@@ -111,8 +110,8 @@ def _disc(center, first, second):
     return "\n".join(lines) + "\n"
 
 
-def write_lights(instances, folder, warnings):
-    """The keys "lights" and "shapes" of lamps, objects with matrices; round ones are files in the folder."""
+def write_lights(instances, scene_file, warnings):
+    """The keys "lights" and "shapes" of lamps, objects with matrices; round ones are files beside the scene file."""
     lights, shapes = [], []
     for thing, matrix in instances:
         light, name = thing.data, thing.name
@@ -124,7 +123,7 @@ def write_lights(instances, folder, warnings):
         elif light.type == "AREA":
             if light.spread < math.pi - 1e-3:
                 warnings.append(f'the spread of the light "{name}" is left out: it shines to all of its side')
-            shape = _area(light, matrix, power, name, folder)
+            shape = _area(light, matrix, power, name, beside(scene_file, f"lamp_{len(shapes)}.obj"))
             if shape:
                 shapes.append(shape)
         else:

@@ -38,7 +38,8 @@ class Render:
             *arguments,
         ]
         self.read = 0
-        self.log.unlink(missing_ok=True)
+        for old in (self.picture, self.log):
+            old.unlink(missing_ok=True)
         with open(self.said, "wb") as said:
             self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
 

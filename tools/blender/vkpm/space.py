@@ -27,5 +27,10 @@ def product(first, second):
     return [a * b for a, b in zip(first, second, strict=True)]
 
 
+def beside(file, what):
+    """A file that belongs to a scene file."""
+    return file.with_name(f"{file.stem}_{what}")
+
+
 def degrees(radians):
     return math.degrees(radians)

@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 
 from . import nodes
-from .space import colour, times
+from .space import beside, colour, times
 
 BAKED_HEIGHT = 1024  # of what Cycles renders in longitude and latitude
 
@@ -48,19 +48,21 @@ def _image_file(image):
     return path if is_linear and path.suffix.lower() in (".exr", ".hdr") and path.is_file() else None
 
 
-def _from_image(node, strength, folder):
+def _from_image(node, strength, scene_file):
     """An environment of an Environment Texture; None if Cycles has to look."""
     if node.projection != "EQUIRECTANGULAR":
         return None
     file, angle = _image_file(node.image), _turn(node)
     if file is None or angle is None:
         return None
-    shutil.copyfile(file, folder / ("world" + file.suffix.lower()))
+    copy = beside(scene_file, "world" + file.suffix.lower())
+    if not (copy.exists() and copy.samefile(file)):
+        shutil.copyfile(file, copy)
     # The middle of the image is Blender's +x, and vkpm's -z, which is Blender's +y.
-    return {"image": "world" + file.suffix.lower(), "strength": strength, "rotation": angle - 90}
+    return {"image": copy.name, "strength": strength, "rotation": angle - 90}
 
 
-def _baked(world, folder, warnings):
+def _baked(world, scene_file, warnings):
     """An environment that Cycles renders, from all around."""
     if "CYCLES" not in {
         kind.bl_idname for kind in bpy.types.RenderEngine.__subclasses__() if hasattr(kind, "bl_idname")
@@ -69,6 +71,7 @@ def _baked(world, folder, warnings):
             "the world's nodes are left out: they take Cycles, which is not enabled (Preferences > Add-ons)"
         )
         return {"radiance": colour(world.color)}
+    baked = beside(scene_file, "world.exr")
     scene, data = bpy.data.scenes.new("vkpm world"), bpy.data.cameras.new("vkpm world")
     camera = bpy.data.objects.new("vkpm world", data)
     try:
@@ -79,27 +82,27 @@ def _baked(world, folder, warnings):
         holder = data if hasattr(data, "panorama_type") else data.cycles
         holder.panorama_type = "EQUIRECTANGULAR"
         scene.render.engine = "CYCLES"
-        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.pixel_filter_type = 16, False, "BOX"
+        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.pixel_filter_type = 64, False, "BOX"
         scene.cycles.filter_width = 1
         scene.cycles.use_adaptive_sampling = False
         scene.render.resolution_x, scene.render.resolution_y = 2 * BAKED_HEIGHT, BAKED_HEIGHT
         scene.render.resolution_percentage = 100
         scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
-        scene.render.filepath = str(folder / "world.exr")
+        scene.render.filepath = str(baked)
         bpy.ops.render.render(write_still=True, scene=scene.name)
     finally:
         bpy.data.objects.remove(camera)
         bpy.data.cameras.remove(data)
         bpy.data.scenes.remove(scene)
-    return {"image": "world.exr", "rotation": -90}
+    return {"image": baked.name, "rotation": -90}
 
 
-def write_world(scene, folder, warnings):
+def write_world(scene, scene_file, warnings):
     """The value of "environment"; None if the world is black."""
     world = scene.world
     if world is None:
         return None
-    result = _from_nodes(world, folder, warnings) if world.use_nodes else {"radiance": colour(world.color)}
+    result = _from_nodes(world, scene_file, warnings) if world.use_nodes else {"radiance": colour(world.color)}
     if result is None:
         return None
     if scene.render.film_transparent:
@@ -107,7 +110,7 @@ def write_world(scene, folder, warnings):
     return result
 
 
-def _from_nodes(world, folder, warnings):
+def _from_nodes(world, scene_file, warnings):
     background = _background(world)
     if background is not None:
         strength, shade = nodes.constant(background, "Strength"), nodes.constant(background, "Color")
@@ -116,7 +119,7 @@ def _from_nodes(world, folder, warnings):
             return {"radiance": radiance} if any(radiance) else None
         linked = nodes.source(background.inputs["Color"])
         if strength is not None and linked is not None and linked.type == "TEX_ENVIRONMENT":
-            result = _from_image(linked, strength, folder)
+            result = _from_image(linked, strength, scene_file)
             if result:
                 return result
-    return _baked(world, folder, warnings)
+    return _baked(world, scene_file, warnings)
