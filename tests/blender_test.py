@@ -210,6 +210,20 @@ def check_opacity(scene, folder: Path) -> None:
     assert np.all(picture["Combined.A"][-1] == 1), "the floor is not opaque"
 
 
+def check_animation(scene, folder: Path) -> None:
+    """A frame is exported as it is then, and not as the scene is now."""
+    ball = bpy.data.objects["Sphere"]
+    for frame, place in ((1, (0, 0, 2)), (2, (5, 0, 2))):
+        ball.location = place
+        ball.keyframe_insert("location", frame=frame)
+    scene.frame_set(2)
+    scene.frame_start = scene.frame_end = 1
+    scene.render.engine, scene.render.filepath = "VKPM", str(folder / "frame")
+    bpy.ops.render.render(animation=True)
+    model, _ = export.read_glb(folder / "files/scene.glb")
+    close(next(node for node in model["nodes"] if node["name"] == "Sphere")["translation"], [0, 2, 0])
+
+
 def check_refusal(scene) -> None:
     scene.vkpm.program, good = "/nowhere/vkpm", scene.vkpm.program
     try:
@@ -310,6 +324,7 @@ def main(program: str) -> None:
         scene.vkpm.program = program
         check_means(scene, folder)
         check_opacity(scene, folder)
+        check_animation(scene, folder)
         check_refusal(scene)
     print(f"Blender {bpy.app.version_string}: the add-on does what it should")
 

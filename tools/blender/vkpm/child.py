@@ -30,10 +30,8 @@ def show_as_rendered(scene, layer):
 
 
 def export(blend, name, layer, frame, part, file):
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    with bpy.data.libraries.load(blend) as (_, here):
-        here.scenes = [name]
-    scene = here.scenes[0]
+    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False, use_scripts=False)
+    scene = bpy.data.scenes[name]
     window = bpy.context.window_manager.windows[0]
     window.scene = scene
     if layer in scene.view_layers:

@@ -76,7 +76,7 @@ def _left_out(depsgraph):
     lost = {}
     for instance in depsgraph.object_instances:
         thing = instance.object
-        if instance.is_instance and instance.parent.type != "EMPTY" and thing.type in SURFACES:
+        if instance.is_instance and instance.parent.type not in ("EMPTY", "FONT") and thing.type in SURFACES:
             lost[f'what "{instance.parent.name}" scatters is left out; make it real (Object > Apply)'] = None
         elif thing.type not in (*SURFACES, "LIGHT", "CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"):
             lost[f'"{thing.name}" is left out: vkpm has no equal for the kind {thing.type}'] = None
