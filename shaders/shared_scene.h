@@ -166,6 +166,7 @@ struct DeviceScene {
     ADDRESS(TexelImage) images;
     ADDRESS(uint) texels;               // tables, then words of images, see TexelImage
     ADDRESS(TexturePlaces) coordinates; // of all triangles in the order of primitives, one set after the other
+    ADDRESS(VertexColors) colors;       // of all triangles
     ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
     ADDRESS(uint) overflows; // how often a path was in more than four media
     Target lit;              // about all that light falls upon

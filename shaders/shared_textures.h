@@ -56,6 +56,7 @@ struct MaterialTextures {
     uint roughness;
     uint opacity;
     uint normal; // its factor is (strength, strength, 1)
+    uint colors; // 1: its color is multiplied by those of vertices
 };
 BUFFER(MaterialTextures)
 
@@ -66,6 +67,14 @@ struct TexturePlaces {
     vec2 c;
 };
 BUFFER(TexturePlaces)
+
+/// Colours of the corners of a triangle, linear.
+struct VertexColors {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+BUFFER(VertexColors)
 
 // Rows of DeviceScene.rests of a lobe whose roughness is a texture: at roughnesses i / ROUGHNESS_STEPS.
 const uint ROUGHNESS_STEPS = 32u;

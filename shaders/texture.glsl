@@ -140,6 +140,10 @@ Material texturedMaterial(DeviceScene scene, Material m, uint first, uint primit
         else if (i == SLOT_METALLIC) m.metallic = number;
         else setRoughness(m, number);
     }
+    if (slots.colors != 0u && first == SLOT_COLOR && primitive < scene.triangleCount) {
+        VertexColors c = VertexColorsPtr(scene.colors).at[primitive];
+        m.color *= c.a + weights.x * (c.b - c.a) + weights.y * (c.c - c.a);
+    }
     return m;
 }
 

@@ -255,6 +255,38 @@ TEST(Textures, ScreensHaveTheFluxOfTheirTexels) {
     EXPECT_THAT(errorOf(scene), HasSubstr("/shapes/0/emission: found emission on a material that is not diffuse"));
 }
 
+// Of models and PLY meshes, those multiply the material's own; others that share the material keep it.
+TEST(Textures, ColoursOfVerticesMultiplyMaterials) {
+    GltfText model = squareModel();
+    auto& primitive = model.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["COLOR_0"] = model.add<unsigned char>(
+        {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 51, 51, 51, 255}, "VEC4", {{"normalized", true}});
+    model.json["materials"] = json::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.5, 1]}}])");
+    const Scene scene = loadScene(writeScene(model.glb(), "model.glb"));
+    const auto near = [](float x) { return testing::FloatNear(x, 1e-6f); };
+    const auto seen = materialsAt(scene, 0, {{0, 0}, {1, 0}, {0.25f, 0.25f}});
+    for (const auto& [m, expected] :
+         {std::pair{seen[0], vec3{1, 0, 0}}, {seen[1], {0, 0.5f, 0}}, {seen[2], {0.5f, 0.125f, 0.125f}}})
+        for (int c = 0; c < 3; c++) EXPECT_THAT(m.color[c], near(expected[c]));
+    EXPECT_NEAR(materialsAt(scene, 1, {{0, 1}})[0].color.x, 0.2, 1e-6); // the fourth corner
+
+    writeScene(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 188\n1 0 0 0 255 0\n0 1 0 0 0 0\n3 0 1 2\n",
+        "colours.ply");
+    json painted = sceneOfMaterial({{"type", "diffuse"}, {"albedo", 0.5}});
+    const json plain = painted["shapes"][0];
+    painted["shapes"][0] = {{"type", "mesh"}, {"file", "colours.ply"}, {"material", "textured"}};
+    painted["shapes"].push_back(plain);
+    const Scene mesh = loadJson(painted);
+    const vec3 corner = materialsAt(mesh, 0, {{0, 0}})[0].color;
+    EXPECT_NEAR(corner.x, 0.5, 1e-6);
+    EXPECT_NEAR(corner.z, 0.5 * 0.50289, 1e-5); // by the curve of sRGB
+    EXPECT_EQ(mesh.materials[mesh.primitives[1].material].textures, 0u);
+}
+
 // glTF's coordinates go down; transforms, samplers, metal and roughness, opacity and emission as its specification
 // says.
 TEST(Textures, ModelsHaveTheirs) {

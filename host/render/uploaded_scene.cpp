@@ -39,6 +39,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       images(uploaded(gpu, "scene images", scene.textured.images)),
       texels(uploaded(gpu, "scene texels", scene.textured.texels)),
       coordinates(uploaded(gpu, "scene texture coordinates", scene.textured.coordinates)),
+      colors(uploaded(gpu, "scene vertex colours", scene.textured.colors)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})),
       overflows(uploaded(gpu, "scene media overflows", std::vector<uint>{0})) {
     if (!scene.skyTexels.empty()) {
@@ -68,6 +69,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .images = images,
               .texels = texels,
               .coordinates = coordinates,
+              .colors = colors,
               .missing = missing,
               .overflows = overflows,
               .lit = scene.lit,

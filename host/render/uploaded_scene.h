@@ -54,6 +54,7 @@ private:
     Buffer<TexelImage> images;
     Buffer<uint> texels;
     Buffer<TexturePlaces> coordinates;
+    Buffer<VertexColors> colors;
     Buffer<uint> missing;
     Buffer<uint> overflows;
 };

@@ -45,6 +45,14 @@ public:
                     places->fail(fmt::format("found {} texture coordinates", coordinates[set]->count()),
                                  fmt::format("there are {} positions", positions->count()));
             }
+        if (const auto given = attributes.find("COLOR_0")) {
+            const std::string type{
+                file.referenced(*given, "accessors").at("type").choice({"VEC3", "VEC4"}) == 0 ? "VEC3" : "VEC4"};
+            colors.emplace(file, *given, type);
+            if (colors->count() != positions->count())
+                given->fail(fmt::format("found {} colours", colors->count()),
+                            fmt::format("there are {} positions", positions->count()));
+        }
         if (const auto indices = place.find("indices")) readIndices(*indices);
         else
             for (uint i = 0; i < positions->count(); ++i) corners.push_back(i);
@@ -55,7 +63,6 @@ public:
 
 private:
     void noteLosses(Reader& attributes) {
-        if (attributes.find("COLOR_0")) losses.add(place, "the colours of vertices are left out");
         if (place.find("targets")) losses.add(place, "morph targets are left out: the mesh has its own shape");
     }
 
@@ -90,6 +97,12 @@ private:
                     const dvec4 at = coordinates[set]->at(i);
                     mesh.coordinates[set].emplace_back(at.x, 1 - at.y); // glTF's go down
                 }
+            if (colors) {
+                const dvec4 color = colors->at(i);
+                if (!isSound(color))
+                    colors->place().fail(fmt::format("colour {} is not finite", i), "allowed are finite numbers");
+                mesh.colors.emplace_back(glm::clamp(dvec3{color}, 0.0, 1.0));
+            }
             if (!normals) continue;
             const dvec4 normal = normals->at(i);
             if (!isSound(normal))
@@ -121,10 +134,12 @@ private:
     Reader place;
     Losses& losses;
     uint mode = TRIANGLES;
-    std::optional<GltfAccessor> positions, normals, coordinates[2];
+    std::optional<GltfAccessor> positions, normals, colors, coordinates[2];
     std::vector<uint> corners;
     IndexedMesh mesh;
 };
+
+const VertexColors white{vec3{1}, vec3{1}, vec3{1}};
 
 void append(Mesh& all, const Mesh& part, const Transform& transform) {
     for (std::size_t set = 0; set < 2; ++set) {
@@ -133,6 +148,13 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
         for (TexturePlaces c : part.coordinates[set]) {
             if (transform.mirrors()) std::swap(c.b, c.c);
             all.coordinates[set].push_back(c);
+        }
+    }
+    if (!part.colors.empty()) {
+        all.colors.resize(all.triangles.size(), white);
+        for (VertexColors c : part.colors) {
+            if (transform.mirrors()) std::swap(c.b, c.c);
+            all.colors.push_back(c);
         }
     }
     for (Mesh::Triangle triangle : part.triangles) {
@@ -147,6 +169,7 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
     }
     for (auto& set : all.coordinates)
         if (!set.empty()) set.resize(all.triangles.size());
+    if (!all.colors.empty()) all.colors.resize(all.triangles.size(), white);
 }
 
 } // namespace

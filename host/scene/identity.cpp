@@ -57,6 +57,7 @@ std::string sceneHash(const Scene& scene) {
         hash.add(scene.textured.images);
         hash.add(scene.textured.texels);
         hash.add(scene.textured.coordinates);
+        hash.add(scene.textured.colors);
     }
     return hash.text();
 }

@@ -159,7 +159,7 @@ const std::vector<MaterialType> materialTypes{{"diffuse", readDiffuse}, {"mirror
 Material readMaterial(Reader reader, Textures& textures) {
     std::vector<std::string_view> names;
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
-    MaterialTextures slots{NONE, NONE, NONE, NONE, NONE};
+    MaterialTextures slots = noTextures;
     Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures, slots);
     const auto normalMap = material.kind != MATERIAL_MIRROR ? reader.find("normalMap") : std::nullopt;
     if (normalMap) slots.normal = textures.normals(*normalMap);

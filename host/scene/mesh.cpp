@@ -120,6 +120,10 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
                 };
                 mesh.coordinates[set].push_back({at(corners[0]), at(corners[1]), at(corners[2])});
             }
+    if (!from.colors.empty())
+        for (const Corners& corners : from.triangles)
+            mesh.colors.push_back(
+                {from.colors[corners[0].vertex], from.colors[corners[1].vertex], from.colors[corners[2].vertex]});
     return mesh;
 }
 

@@ -21,6 +21,7 @@ struct Mesh {
     };
     std::vector<Triangle> triangles;
     std::vector<TexturePlaces> coordinates[2]; // sets of these, of all triangles each, or empty
+    std::vector<VertexColors> colors;          // of all triangles, or empty
     std::vector<uint> materials;               // of all triangles: index into `materialNames`; or empty
     std::vector<std::string> materialNames;
     std::vector<std::string> warnings;

@@ -127,8 +127,7 @@ void ShapeLoader::warnOfFlatCoordinates(const Reader& shape, const Surface& surf
 void ShapeLoader::requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface) {
     if (!isTextured(surface)) return;
     const uint textured = scene.materials[surface.material].textures;
-    const MaterialTextures slots =
-        textured != 0 ? scene.textured.materials[textured - 1] : MaterialTextures{NONE, NONE, NONE, NONE, NONE};
+    const MaterialTextures slots = textured != 0 ? scene.textured.materials[textured - 1] : noTextures;
     for (const uint slot :
          {slots.color, slots.metallic, slots.roughness, slots.opacity, slots.normal, surface.emission}) {
         const uint set = slot == NONE ? 0 : scene.textured.textures[slot].set;
@@ -139,8 +138,9 @@ void ShapeLoader::requireCoordinates(const Reader& shape, const Mesh& mesh, cons
     }
 }
 
-std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transform& transform, const Surface& surface,
+std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transform& transform, Surface surface,
                              std::optional<uint> part) {
+    if (!mesh.colors.empty()) surface.material = textures.coloredByVertices(surface.material);
     const std::size_t first = scene.primitives.size();
     requireCoordinates(shape, mesh, surface);
     std::size_t count = 0;
@@ -187,6 +187,12 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t
     primitive.light =
         addLight(surface, LIGHT_TRIANGLE, points[0], points[1] - points[0], points[2] - points[0], area, sets[set]);
     addCoordinates(shape, surface, sets[0], sets[1]);
+    if (!mesh.colors.empty()) {
+        VertexColors colors = mesh.colors[index];
+        if (transform.mirrors()) std::swap(colors.b, colors.c);
+        scene.textured.colors.resize(scene.primitives.size());
+        scene.textured.colors.push_back(colors);
+    }
     addFlat(shape, primitive);
 }
 

@@ -1,6 +1,7 @@
 /// Reading of PLY elements: vertices first, then the faces that refer to them.
 #include "scene/ply.h"
 #include "scene/ply_values.h"
+#include "scene/textures.h"
 #include "scene/triangulate.h"
 #include <cmath>
 #include <map>
@@ -96,7 +97,11 @@ private:
                                 element.find({"t", "v", "texture_v", "texture_t"})};
         const auto isNumber = [&](uint i) { return i != NONE && !element.properties[i].countType; };
         const bool hasCoordinates = isNumber(places[0]) && isNumber(places[1]);
-        if (element.find({"red", "r", "diffuse_red"}) != NONE) mesh.leftOut.emplace_back("the colours of its vertices");
+        const std::array colors{element.find({"red", "r", "diffuse_red"}),
+                                element.find({"green", "g", "diffuse_green"}),
+                                element.find({"blue", "b", "diffuse_blue"})};
+        const bool hasColors = std::ranges::all_of(colors, isNumber);
+        if (!hasColors && colors[0] != NONE) mesh.leftOut.emplace_back("the colours of its vertices");
         mesh.vertices.reserve(element.count);
         if (hasNormals) mesh.normals.reserve(element.count);
         std::vector<double> row(element.properties.size());
@@ -108,6 +113,14 @@ private:
             mesh.vertices.emplace_back(row[points[0]], row[points[1]], row[points[2]]);
             if (!allFinite(mesh.vertices.back())) wrongVertices[i] = mark;
             if (hasCoordinates) mesh.coordinates[0].emplace_back(row[places[0]], row[places[1]]);
+            if (hasColors) {
+                mesh.colors.emplace_back();
+                for (int c = 0; c < 3; ++c)
+                    mesh.colors.back()[c] =
+                        colorOf(row[colors[std::size_t(c)]], element.properties[colors[std::size_t(c)]].type);
+                if (!allFinite(mesh.colors.back()))
+                    fail(Values::placeOf(mark), "found a colour that is not finite", "allowed are finite numbers");
+            }
             if (!hasNormals) continue;
             mesh.normals.emplace_back(row[normals[0]], row[normals[1]], row[normals[2]]);
             if (!allFinite(mesh.normals.back())) mesh.wrongNormals[i] = Values::placeOf(mark);
@@ -124,6 +137,12 @@ private:
     }
 
     template <class Vector> static bool allFinite(const Vector& v) { return std::isfinite(v.x + v.y + v.z); }
+
+    /// Whole numbers are by the curve of sRGB, up to the greatest of their type; others are linear.
+    static float colorOf(double x, PlyType type) {
+        if (type == PlyType::float32 || type == PlyType::float64) return static_cast<float>(std::clamp(x, 0.0, 1.0));
+        return static_cast<float>(linearOfSrgb(std::clamp(x / (plyBytes(type) == 1 ? 255 : 65535), 0.0, 1.0)));
+    }
 
     /// What is beyond the range of float is infinite.
     static double inRange(double x) {

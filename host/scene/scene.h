@@ -52,6 +52,7 @@ struct TextureArrays {
     std::vector<TexelImage> images;
     std::vector<uint> texels;
     std::vector<TexturePlaces> coordinates; // of all triangles, one set after the other
+    std::vector<VertexColors> colors;       // of all triangles
     uint sets = 0;
 };
 

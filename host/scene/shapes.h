@@ -41,7 +41,7 @@ public:
     void add(Reader shape);
     /// Adds a triangle mesh that no element of "shapes" brings; what is wrong with it is told of `place`. Returns how
     /// many of its triangles have no area, and were left out. `part` takes those of one material of the file alone.
-    std::size_t add(const Reader& place, const Mesh& mesh, const Transform& transform, const Surface& surface,
+    std::size_t add(const Reader& place, const Mesh& mesh, const Transform& transform, Surface surface,
                     std::optional<uint> part = {});
     /// Appends the spheres, which follow all triangles, and warns of glass that is not the boundary of a solid.
     void finish();

@@ -12,9 +12,6 @@ namespace {
 
 const std::uint64_t maxTexelWords = 1ull << 30; // of all images: 4 GiB
 
-/// IEC 61966-2-1.
-double linearOfSrgb(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
-
 /// Coordinates of a scene file go up from the lower edge of an image, whose rows go down.
 void readTransform(Reader transform, Texture& texture) {
     glm::dvec2 offset{0}, scale{1};
@@ -31,6 +28,8 @@ void readTransform(Reader transform, Texture& texture) {
 uint readWrap(const Reader& reader) { return static_cast<uint>(reader.choice({"repeat", "mirror", "clamp"})); }
 
 } // namespace
+
+double linearOfSrgb(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
 
 vec3 Textures::color(const Reader& value, Range range, uint& slot) {
     if (!is(value)) return value.color(range);
@@ -49,6 +48,18 @@ uint Textures::place(const MaterialTextures& textures) {
         return 0;
     scene.textured.materials.push_back(textures);
     return static_cast<uint>(scene.textured.materials.size());
+}
+
+uint Textures::coloredByVertices(uint material) {
+    const auto [known, isNew] = colored.try_emplace(material, static_cast<uint>(scene.materials.size()));
+    if (!isNew) return known->second;
+    Material copy = scene.materials[material];
+    MaterialTextures slots = copy.textures != 0 ? scene.textured.materials[copy.textures - 1] : noTextures;
+    slots.colors = 1;
+    scene.textured.materials.push_back(slots);
+    copy.textures = static_cast<uint>(scene.textured.materials.size());
+    scene.materials.push_back(copy);
+    return known->second;
 }
 
 uint Textures::add(const Texture& texture) {

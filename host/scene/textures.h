@@ -9,6 +9,11 @@ namespace vkpm {
 /// What the numbers of an image stand for, where a texture does not say it.
 enum class TexelSpace { byFile, srgb, linear };
 
+const MaterialTextures noTextures{NONE, NONE, NONE, NONE, NONE, 0};
+
+/// What a number from 0 to 1 by the curve of sRGB stands for (IEC 61966-2-1).
+double linearOfSrgb(double x);
+
 /// Fills the textures and images of a scene; an image is read once.
 class Textures {
 public:
@@ -32,6 +37,8 @@ public:
 
     /// What Material.textures says of a material with these textures: 0 if it has none.
     uint place(const MaterialTextures& textures);
+    /// A material of the scene that is another one but for the colours of vertices, by which its own is multiplied.
+    uint coloredByVertices(uint material);
 
     /// The image of a file; `place` is where the scene names it.
     uint image(const Reader& place, const std::filesystem::path& file, TexelSpace space);
@@ -54,6 +61,7 @@ private:
     std::vector<uint> tables() const;
     float greatest(const Texture& texture) const;
 
+    std::map<uint, uint> colored; // materials by those that they were made of
     std::map<std::string, std::string> given;
     std::map<std::pair<std::string, TexelSpace>, uint> images; // by name
     std::map<std::string, TexelImage> narrow;                  // of 8 bits, which every space can read
