@@ -177,6 +177,10 @@ public:
         }
         if (random.bits() % 4 == 0)
             materials[maybe() ? "white" : "veil"] = {{"type", "diffuse"}, {"albedo", 0.7}, {"opacity", random.unit()}};
+        if (random.bits() % 3 == 0) {
+            materials["lacquer"] = {{"type", "plastic"}, {"albedo", color(0, 1)}, {"roughness", random.unit()}};
+            if (maybe()) materials["lacquer"]["normalMap"] = {{"texture", std::string(VKPM_SCENES) + "/wood.png"}};
+        }
         shapes = json::array();
         const bool onlySpheres = random.bits() % 6 == 0;
         if (!onlySpheres && maybe()) room();

@@ -307,5 +307,29 @@ TEST(Scatter, PrismBendsColoursApart) {
     }
 }
 
+// As much of the light along one way is kept as along the way back: solid angles about the surface times what is kept.
+TEST(Material, MappedNormalsKeepAsMuchBothWays) {
+    Random random(4);
+    std::vector<CorrectionCase> forth, back;
+    for (int i = 0; i < 10'000; i++) {
+        const vec3 normal = random.direction(), mapped = glm::normalize(normal + 0.9f * random.direction());
+        const vec3 d = random.direction(), w = random.direction();
+        forth.push_back({d, w, mapped, normal});
+        back.push_back({-w, -d, mapped, normal});
+    }
+    const auto there = map<float>("mapped_acceptance", forth), here = map<float>("mapped_acceptance", back);
+    double least = 1;
+    for (std::size_t i = 0; i < forth.size(); i++) {
+        const auto& [d, w, mapped, normal] = forth[i];
+        const auto cosine = [](vec3 a, vec3 b) { return std::abs(glm::dot(glm::dvec3{a}, glm::dvec3{b})); };
+        const double a = double{there[i]} * cosine(d, normal) * cosine(w, mapped),
+                     b = double{here[i]} * cosine(w, normal) * cosine(d, mapped);
+        ASSERT_NEAR(a, b, 1e-5 * a + 1e-7) << i;
+        ASSERT_LE(there[i], 1) << i;
+        least = std::min(least, double{there[i]});
+    }
+    EXPECT_LT(least, 0.01);
+}
+
 } // namespace
 } // namespace vkpm

@@ -124,8 +124,8 @@ TEST(NormalMaps, PhotonsSeeWhatPathsSee) {
         return json{
             {"type", "rectangle"}, {"corner", list(corner)}, {"edges", {list(u), list(v)}}, {"material", material}};
     };
-    json lamp = wall({-0.4f, 2.19f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, "white");
-    lamp["emission"] = {8, 7, 6};
+    json lamp = wall({-1.49f, 0.6f, -0.4f}, {0, 0.4f, 0}, {0, 0, 0.8f}, "white");
+    lamp["emission"] = {8, 7, 6}; // over the water, where it matters most that scattering is the same both ways
     const Scene scene = loadJson(
         {{"camera", {{"origin", {0, 1.6, 3.4}}, {"target", {0, 0.6, 0}}, {"fieldOfView", 40}}},
          {"film", {{"size", {32, 24}}}},
@@ -171,9 +171,9 @@ TEST(NormalMaps, PhotonsSeeWhatPathsSee) {
         EXPECT_LE(allowed, noise * b.mean) << what;
     };
     expectSame(photon[LAYER_DIRECT], path[LAYER_DIRECT], 0.01, 0.003, "direct");
-    expectSame(photon[LAYER_SPECULAR], path[LAYER_SPECULAR], 0.15, 0.003, "specular");
+    expectSame(photon[LAYER_SPECULAR], path[LAYER_SPECULAR], 0.2, 0.003, "specular");
     expectSame(photon[LAYER_CAUSTIC], path[LAYER_CAUSTIC], 0.1, 0.012, "caustic");
-    expectSame(photon[LAYER_INDIRECT], path[LAYER_INDIRECT], 0.04, 0.012, "indirect");
+    expectSame(photon[LAYER_INDIRECT], path[LAYER_INDIRECT], 0.06, 0.012, "indirect");
     expectSame(means(INTEGRATOR_LIGHT, 24)[LAYER_CAUSTIC], path[LAYER_CAUSTIC], 0.07, 0.003,
                "caustic by light tracing");
 }
