@@ -1,10 +1,12 @@
 /// Noise and bias of pixels, put together.
 #include "render/error_estimate.h"
+#include "render/noise.h"
 #include "scene/luminance.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <tbb/parallel_for.h>
 #include <vector>
 
@@ -14,6 +16,9 @@ namespace {
 using glm::dvec3;
 
 const uint parts = 8; // of the picture, along each side
+
+// What the estimate of noise may be off, as a factor: measured on the shipped scenes (tools/study truth).
+const double unsure = 1.05;
 
 // Quantiles of the normal distribution: one side for the margin of the error, two sides for intervals.
 const double oneSided90 = 1.2816, twoSided90 = 1.6449;
@@ -60,24 +65,59 @@ double squaredBias(const Pixel& pixel) {
     return bias * bias - noise * noise;
 }
 
-/// Two-sided 90 % quantile of Student's t (Cornish & Fisher 1937, by four terms; Abramowitz & Stegun 26.7.5).
-double studentQuantile(uint freedom) {
-    const std::array<double, 4> few{0, 6.3138, 2.9200, 2.3534}; // the expansion is for more
-    if (freedom < few.size()) return few[freedom];
-    const double z = twoSided90, n = freedom;
-    const double z2 = z * z;
-    return z + z * (z2 + 1) / (4 * n) + z * ((5 * z2 + 16) * z2 + 3) / (96 * n * n) +
-           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * n * n * n);
-}
-
+/// Squared relative errors of a pixel.
 struct Squares {
-    double noise = 0;
-    double bias = 0;
+    float noise = 0;
+    float bias = 0; // may be negative, see squaredBias
 };
 
-struct ErrorSums : Squares {
+/// The squared error of a pixel, whose expectation is `square`, if it is among those that are off least: the
+/// probability that it is, and the part of the expectation from there, if the error is normally distributed.
+struct KeptSquare {
+    double probability;
+    double part;
+};
+
+KeptSquare keptSquare(double square, double greatest) {
+    if (square <= 0) return {1, 1};
+    const double reach = std::sqrt(greatest / square), inside = std::erf(reach / std::numbers::sqrt2);
+    return {inside, inside - reach * std::sqrt(2 / std::numbers::pi) * std::exp(-0.5 * reach * reach)};
+}
+
+/// The squared error that KEPT_PIXELS of the pixels are not expected to exceed, given the expectation of each one.
+double greatestKept(const std::vector<double>& squares) {
+    const int least = -64, most = 64, each = 32; // octaves, and parts of each
+    std::vector<double> counts(std::size_t((most - least) * each), 0);
+    for (const double square : squares)
+        if (square > 0) // others are kept
+            counts[std::size_t(std::clamp((std::log2(square) - least) * each, 0.0, double(counts.size() - 1)))]++;
+    const double left = (1 - KEPT_PIXELS) * double(squares.size());
+    double low = least, high = most + 8;
+    for (int step = 0; step < 50; step++) {
+        const double middle = (low + high) / 2;
+        double above = 0;
+        for (std::size_t i = 0; i < counts.size(); i++)
+            if (counts[i] > 0)
+                above += counts[i] *
+                         std::erfc(std::exp2((middle - least - (double(i) + 0.5) / each) / 2) / std::numbers::sqrt2);
+        (above > left ? low : high) = middle;
+    }
+    return std::exp2(high);
+}
+
+/// What pixels are expected to be off, all of them or those that are off least.
+struct ErrorSums {
+    double noise = 0, bias = 0;
     double count = 0;
     double variance = 0; // of the sum of squared errors
+
+    void add(const Squares& pixel, const KeptSquare& kept) {
+        const double square = kept.part * double{pixel.noise};
+        noise += square;
+        bias += kept.part * double{pixel.bias};
+        variance += 2 * square * square;
+        count += kept.probability;
+    }
 };
 
 double rootOfMean(double sum, double count) { return std::sqrt(std::max(0.0, sum / count)); }
@@ -104,8 +144,8 @@ static void squaresOf(const std::function<std::vector<Pixel>(uint, uint)>& sourc
         for (uint x = 0; x < size.x; x++) {
             const Pixel& pixel = pixels[std::size_t(y) * size.x + x];
             const dvec3 truth = likelyTruth(colors, pixel, {size.x, end - first}, x, y);
-            *squares++ = {relative(dvec3(pixel.noise) * dvec3(pixel.noise), truth),
-                          squaredBias(pixel) / (luminance(truth) * luminance(truth) + 0.01)};
+            *squares++ = {float(relative(dvec3(pixel.noise) * dvec3(pixel.noise), truth)),
+                          float(squaredBias(pixel) / (luminance(truth) * luminance(truth) + 0.01))};
         }
 }
 
@@ -116,16 +156,30 @@ ErrorEstimate estimateError(const std::function<std::vector<Pixel>(uint, uint)>&
         const uint row = block * rowsAtOnce;
         squaresOf(rows, size, row, std::min(rowsAtOnce, size.y - row), pixels.data() + std::size_t(row) * size.x);
     });
-    std::array<ErrorSums, parts * parts> blocks{};
-    ErrorSums all;
+    // A single pixel's bias is noisy, and what is noisy must not choose.
+    std::vector<double> expected;
+    expected.reserve(pixels.size());
+    for (const Squares& pixel : pixels) expected.push_back(double{pixel.bias});
+    expected = sumsAround(expected, size);
+    const auto around = [](uint at, uint all) {
+        return std::min(at + noiseReach, all - 1) - (at - std::min<uint>(at, noiseReach)) + 1;
+    };
     for (std::size_t i = 0; i < pixels.size(); i++) {
+        const uint count = around(uint(i % size.x), size.x) * around(uint(i / size.x), size.y);
+        expected[i] = double{pixels[i].noise} + std::fmax(expected[i] / count, 0.0);
+    }
+    const double greatest = greatestKept(expected);
+
+    std::array<ErrorSums, parts * parts> blocks{};
+    ErrorSums all, whole;
+    std::uint64_t specks = 0;
+    for (std::size_t i = 0; i < pixels.size(); i++) {
+        const KeptSquare kept = keptSquare(expected[i], greatest);
+        whole.add(pixels[i], {1, 1});
+        specks += pixels[i].noise > 1;
         const uint x = static_cast<uint>(i % size.x), y = static_cast<uint>(i / size.x);
-        all.variance += 2 * pixels[i].noise * pixels[i].noise;
-        for (ErrorSums* sum : {&blocks[y * parts / size.y * parts + x * parts / size.x], &all}) {
-            sum->noise += pixels[i].noise;
-            sum->bias += pixels[i].bias;
-            sum->count++;
-        }
+        blocks[y * parts / size.y * parts + x * parts / size.x].add(pixels[i], kept);
+        all.add(pixels[i], kept);
     }
     const ErrorEstimate parts{.noise = rootOfMean(all.noise, all.count), .bias = rootOfMean(all.bias, all.count)};
     const double square = parts.noise * parts.noise + parts.bias * parts.bias;
@@ -140,11 +194,39 @@ ErrorEstimate estimateError(const std::function<std::vector<Pixel>(uint, uint)>&
     }
     const double parting = used > 1 ? spread * used / (used - 1) : 0;
     const double margin = oneSided90 * std::sqrt(parting + all.variance) / all.count;
-    return {parts.noise, parts.bias, std::sqrt(square + margin)};
+    return {.noise = parts.noise,
+            .bias = parts.bias,
+            .error = unsure * std::sqrt(square + margin),
+            .least = std::sqrt(std::max(square - margin, 0.0)) / unsure,
+            .whole = rootOfMean(whole.noise + whole.bias, whole.count),
+            .specks = specks};
+}
+
+std::vector<bool> keptPixels(std::span<const float> squares) {
+    std::vector<bool> kept(squares.size(), true);
+    const auto left = std::size_t(double(squares.size()) * (1 - KEPT_PIXELS));
+    if (left == 0) return kept;
+    std::vector<float> sorted(squares.begin(), squares.end());
+    const auto last = sorted.end() - std::ptrdiff_t(left) - 1; // of those that are kept
+    std::ranges::nth_element(sorted, last);
+    std::size_t equal = std::size_t(std::count(sorted.begin(), last + 1, *last)); // of these, the first are kept
+    for (std::size_t i = 0; i < squares.size(); i++)
+        kept[i] = squares[i] < *last || (squares[i] == *last && equal > 0 && equal-- > 0);
+    return kept;
+}
+
+/// Two-sided 90 % quantile of Student's t (Cornish & Fisher 1937, by four terms; Abramowitz & Stegun 26.7.5).
+double intervalQuantile(uint freedom) {
+    const std::array<double, 4> few{0, 6.3138, 2.9200, 2.3534}; // the expansion is for more
+    if (freedom < few.size()) return few[freedom];
+    const double z = twoSided90, n = freedom;
+    const double z2 = z * z;
+    return z + z * (z2 + 1) / (4 * n) + z * ((5 * z2 + 16) * z2 + 3) / (96 * n * n) +
+           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * n * n * n);
 }
 
 vec3 halfInterval(const Pixel& pixel, uint freedom) {
-    const double t = studentQuantile(freedom);
+    const double t = intervalQuantile(freedom);
     const dvec3 noise(pixel.noise);
     const dvec3 color = exactBeauty(pixel);
     const dvec3 share = luminance(color) > 0 ? color / luminance(color) : dvec3(1); // channels are off in proportion
@@ -152,8 +234,10 @@ vec3 halfInterval(const Pixel& pixel, uint freedom) {
 }
 
 std::string describe(const ErrorEstimate& e) {
-    return fmt::format("error {:.2g} % (noise {:.2g} %, bias {:.2g} %), 90 % sure", 100 * e.error, 100 * e.noise,
-                       100 * e.bias);
+    return fmt::format(
+        "error {:.2g} % (noise {:.2g} %, bias {:.2g} %), 90 % sure, without the worst {:.0f} % of the pixels "
+        "({} specks)",
+        100 * e.error, 100 * e.noise, 100 * e.bias, 100 * (1 - KEPT_PIXELS), e.specks);
 }
 
 } // namespace vkpm

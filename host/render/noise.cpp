@@ -37,7 +37,10 @@ Levels levelsOf(std::span<const PassRange> runs) {
     return {batchesOf(runs, size), size >= 4 ? batchesOf(runs, size / 4) : Batches{}};
 }
 
-/// Sums of a value over the pixels within reach, by columns and then by rows.
+double total(const dvec3& v) { return v.x + v.y + v.z; }
+
+} // namespace
+
 std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
     const int width = int(size.x), height = int(size.y);
     const auto sum = [&](const std::vector<double>& in, int x, int y, int dx, int dy) {
@@ -49,6 +52,7 @@ std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
         }
         return total;
     };
+    // By columns, then by rows.
     std::vector<double> rows(values.size()), all(values.size());
     for (int y = 0, i = 0; y < height; y++)
         for (int x = 0; x < width; x++, i++) rows[std::size_t(i)] = sum(values, x, y, 1, 0);
@@ -56,10 +60,6 @@ std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
         for (int x = 0; x < width; x++, i++) all[std::size_t(i)] = sum(rows, x, y, 0, 1);
     return all;
 }
-
-double total(const dvec3& v) { return v.x + v.y + v.z; }
-
-} // namespace
 
 std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::span<const PassRange> runs) {
     std::vector<vec3> noise;
