@@ -16,7 +16,7 @@ namespace {
 
 struct Judged {
     double inside = 0; // part of the channels of noisy pixels whose interval holds the truth
-    double error = 0;  // of the pixels that estimates are about
+    double error = 0;  // of the values that estimates are about
     ErrorEstimate estimate;
     Values off;  // from the truth, by pixel and channel
     Values bias; // estimated
@@ -36,11 +36,11 @@ Judged judge(const Scene& scene, const Settings& settings, uint passes, const Va
     Judged result;
     result.estimate = estimateError(pixels, settings.size);
     double counted = 0;
-    std::vector<float> squares(pixels.size(), 0);
+    std::vector<float> squares;
     for (std::size_t i = 0; i < pixels.size(); i++)
         for (int c = 0; c < 3; c++) {
             const double right = truth[3 * i + std::size_t(c)], apart = beautyAt(pixels[i], c) - right;
-            squares[i] += float(apart * apart / (right * right + 0.01) / 3);
+            squares.push_back(float(apart * apart / (right * right + 0.01)));
             result.off.push_back(apart);
             result.bias.push_back(double(pixels[i].mean.bias[c]));
             if (pixels[i].noise[c] == 0) continue; // nothing there is random
@@ -113,15 +113,15 @@ TEST(Estimate, IsTrueOfShippedScenes) {
     }
 }
 
-TEST(Estimate, KeepsThePixelsWithTheLeastError) {
+TEST(Estimate, KeepsTheValuesWithTheLeastError) {
     std::vector<float> squares(1000, 1);
     for (const std::size_t i : {3u, 500u, 999u}) squares[i] = 100;
-    const std::vector<bool> kept = keptPixels(squares);
+    const std::vector<bool> kept = keptValues(squares);
     EXPECT_EQ(std::ranges::count(kept, false), 20);
     for (const std::size_t i : {3u, 500u, 999u, 998u, 982u}) EXPECT_FALSE(kept[i]) << i;
     EXPECT_TRUE(kept[981]); // of equal ones the first
     EXPECT_EQ(keptError(squares), 1);
-    EXPECT_EQ(std::ranges::count(keptPixels(std::vector<float>(49, 2)), false), 0);
+    EXPECT_EQ(std::ranges::count(keptValues(std::vector<float>(49, 2)), false), 0);
 }
 
 // A few pixels that are far too bright change what is said of them, and nothing else.
@@ -143,7 +143,7 @@ TEST(Estimate, DoesNotHangOnSpecks) {
     EXPECT_NEAR(specked.noise, calm.noise, 0.03 * calm.noise);
     EXPECT_NEAR(specked.error, calm.error, 0.03 * calm.error);
     EXPECT_GT(specked.whole, 10 * calm.whole);
-    EXPECT_THAT(describe(specked), testing::HasSubstr("without the worst 2 % of the pixels (40 specks)"));
+    EXPECT_THAT(describe(specked), testing::HasSubstr("without the worst 2 % (40 specks)"));
 }
 
 // Caustics as photons connected to the camera find them and as the map does.

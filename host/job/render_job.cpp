@@ -135,6 +135,7 @@ void RenderJob::estimate() {
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
     error = estimateNow();
+    errorPasses = count;
     hopeless = missesPhotons();
     if (error)
         log.write("error", {{"passes", count},

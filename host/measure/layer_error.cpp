@@ -45,7 +45,7 @@ double meanFlip(const Layer& image, const Layer& reference) {
 } // namespace
 
 double keptError(const std::vector<float>& squares) {
-    const std::vector<bool> kept = keptPixels(squares);
+    const std::vector<bool> kept = keptValues(squares);
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < squares.size(); i++)
         if (kept[i]) sum += double{squares[i]}, count++;
@@ -56,17 +56,15 @@ LayerError measureLayer(const Layer& image, const Layer& reference) {
     assert(areComparable(image, reference) && image.size == reference.size);
     LayerError error;
     const size_t pixels = image.channels[0].size();
-    std::vector<float> squares; // relative, of pixels
-    squares.reserve(pixels);
+    std::vector<float> squares; // relative
+    squares.reserve(pixels * image.channels.size());
     for (size_t i = 0; i < pixels; ++i) {
         if (!isFinite(image, i) || !isFinite(reference, i)) {
             ++error.nonfinite;
             continue;
         }
-        double sum = 0;
         for (size_t c = 0; c < image.channels.size(); ++c)
-            sum += add(error, image.channels[c][i], reference.channels[c][i]);
-        squares.push_back(static_cast<float>(sum / double(image.channels.size())));
+            squares.push_back(static_cast<float>(add(error, image.channels[c][i], reference.channels[c][i])));
     }
     const size_t finite = pixels - error.nonfinite;
     finish(error, static_cast<double>(finite * image.channels.size()));

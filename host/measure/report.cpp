@@ -83,12 +83,12 @@ std::map<std::string, double> layerNoise(const Image& image, uint passes, const 
     for (const Layer& layer : layers) {
         const Layer* other = isLight(layer) ? comparableIn(others, layer) : nullptr;
         if (!other) continue;
-        std::vector<float> squares(layer.channels[0].size(), 0);
+        std::vector<float> squares;
         for (std::size_t c = 0; c < 3; c++)
-            for (std::size_t i = 0; i < squares.size(); i++) {
+            for (std::size_t i = 0; i < layer.channels[c].size(); i++) {
                 const double apart = double{layer.channels[c][i]} - double{other->channels[c][i]},
                              light = double{beauty->channels[c][i]};
-                squares[i] += static_cast<float>(scale * apart * apart / (light * light + 0.01) / 3);
+                squares.push_back(static_cast<float>(scale * apart * apart / (light * light + 0.01)));
             }
         noise[layer.name] = keptError(squares);
     }

@@ -18,7 +18,7 @@ struct ReportRow {
     std::uint64_t photons = 0;                  // emitted
     std::map<std::string, LayerError> layers{}; // of light; empty without a reference
     std::optional<ErrorEstimate> estimate{};    // of beauty
-    std::map<std::string, double> noise{};      // of layers of light, over beauty: roots of means over the kept pixels
+    std::map<std::string, double> noise{};      // of layers of light, over beauty, see layerNoise
 };
 
 /// What the page shows of the last picture.
@@ -59,7 +59,7 @@ private:
 };
 
 /// Standard errors of the layers of light of a mean over `passes` passes, from how it differs from the mean of the
-/// first `before` of them: relative to beauty, roots of means over pixels, of each layer those that keptPixels() keeps.
+/// first `before` of them: relative to beauty, roots of means over the values of each layer that keptValues() keeps.
 std::map<std::string, double> layerNoise(const Image& image, uint passes, const Image& earlier, uint before);
 
 /// Slope of a straight line through the logarithms of ys over those of xs, by least squares; NaN with fewer than two

@@ -308,7 +308,7 @@ std::string layerTable(const ReportRow& row, const Image& image) {
         out += "</tr>\n";
     }
     return out + "</table></div>\n<p>Noise of a layer is relative to beauty, by how the last passes differ from those "
-                 "before; errors are relative to the layer itself. Noise and error are those of the 98 % of the pixels "
+                 "before; errors are relative to the layer itself. Noise and error are those of the 98 % of the values "
                  "that are off least, relMSE and RMSE those of all.</p>\n";
 }
 
@@ -333,7 +333,7 @@ std::string reportPage(const std::vector<ReportRow>& rows, const ReportPicture& 
                                    "time</title>\n<style>{}</style></head>\n<body>\n<h1>Error against run time</h1>\n",
                                    STYLE);
     if (!rows.empty() && rows.back().estimate)
-        page += fmt::format("<p>The render's own estimate after {} passes: {}. With all pixels, luck included, it is "
+        page += fmt::format("<p>The render's own estimate after {} passes: {}. Of all values, luck included, it is "
                             "{:.2g} %.</p>\n",
                             rows.back().passes, describe(*rows.back().estimate), 100 * rows.back().estimate->whole);
     page += figure(image.size, picture.developed,

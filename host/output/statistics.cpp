@@ -74,7 +74,7 @@ std::string statisticsJson(const Statistics& statistics) {
     if (const auto& e = statistics.error)
         object["error"] = {{"relative", e->error},   {"noise", e->noise},
                            {"bias", e->bias},        {"confidence", 0.9},
-                           {"kept", KEPT_PIXELS},    {"specks", e->specks},
+                           {"kept", KEPT},           {"specks", e->specks},
                            {"all_pixels", e->whole}, {"quantile", intervalQuantile(statistics.noiseFreedom)}};
     object["nonfinite"] = statistics.nonfinite;
     object["warnings"] = statistics.warnings;

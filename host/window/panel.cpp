@@ -77,7 +77,7 @@ void showError(const RenderState& s) {
     line(fmt::format("{:.2g} %", 100 * e.error));
     ImGui::SameLine();
     ImGui::TextColored(dim, "noise %.2g %%, bias %.2g %%; 90 %% sure", 100 * e.noise, 100 * e.bias);
-    note(fmt::format("without the worst {:.0f} % of the pixels ({} specks)", 100 * (1 - KEPT_PIXELS), e.specks));
+    note(fmt::format("without the worst {:.0f} % ({} specks)", 100 * (1 - KEPT), e.specks));
     drawErrorCurve(s.errors, 6.5f * ImGui::GetFontSize());
 }
 

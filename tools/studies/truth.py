@@ -8,6 +8,7 @@ program states their errors: a changed estimate is judged in minutes.
 
 import argparse
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,8 +20,10 @@ from tqdm import tqdm
 from studies.vkpm import LIGHT, Failure, Vkpm, say
 
 SEED = 1000003  # of references
-KEPT = 0.98  # of the pixels, as in host/render/error_estimate.h
+KEPT = 0.98  # of the values, as in host/render/error_estimate.h
 LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+erf = np.vectorize(math.erf)
 
 
 @dataclass
@@ -103,18 +106,24 @@ class Renders:
 # Measures.
 
 
-def squares(picture: Picture, truth: Picture) -> tuple[np.ndarray, np.ndarray]:
-    """Squared relative errors of pixels, and the part of them that is noise of the truth, to be expected."""
+def squares(picture: Picture, truth: Picture) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Squared relative errors of pixels and colours, what noise makes one expect, and what of that is the truth's own."""
     right = truth.layers["beauty"]
     weight = 1 / (right**2 + 0.01)
-    apart = picture.layers["beauty"] - right
-    return np.mean(apart**2 * weight, -1), np.mean(truth.layers["noise"] ** 2 * weight, -1)
+    own = truth.layers["noise"] ** 2 * weight
+    return (picture.layers["beauty"] - right) ** 2 * weight, picture.layers["noise"] ** 2 * weight + own, own
 
 
-def error_of(found: np.ndarray, noise: np.ndarray, kept: float) -> float:
-    """The root of the mean over the part of the pixels that are off least, less what the truth is off itself."""
-    order = np.argsort(found, axis=None)[: found.size - int(round(found.size * (1 - kept)))]
-    return float(np.sqrt(max(np.mean(found.ravel()[order]) - np.mean(noise.ravel()[order]), 0)))
+def error_of(found: np.ndarray, expected: np.ndarray, own: np.ndarray, kept: float) -> float:
+    """The root of the mean over the part of the values that are off least, less what the truth is off itself there."""
+    count = found.size - int(round(found.size * (1 - kept)))
+    greatest = np.partition(found, count - 1, axis=None)[count - 1]
+    total = np.sum(np.minimum(found, greatest)) - greatest * (found.size - count)
+    reach = np.sqrt(greatest / np.maximum(expected, 1e-30))
+    share = np.ones_like(own)  # of each square, where it is kept, if errors are normally distributed
+    if kept < 1:
+        share = erf(reach / np.sqrt(2)) - reach * np.sqrt(2 / np.pi) * np.exp(-(reach**2) / 2)
+    return float(np.sqrt(max(total - np.sum(own * share), 0) / count))
 
 
 def regions(truth: Picture) -> dict[str, np.ndarray]:
@@ -161,7 +170,7 @@ def layer_squares(pictures: list[Picture], truth: Picture) -> dict[str, np.ndarr
 
 def percent(value: float) -> str:
     """Of an error or a part, for people."""
-    return f"{100 * value:.2g} %" if np.isfinite(value) else "–"
+    return f"{100 * value:{'.0f' if value > 0.1 else '.2g'}} %" if np.isfinite(value) else "–"
 
 
 def span(values: list[float]) -> str:
@@ -171,14 +180,14 @@ def span(values: list[float]) -> str:
 
 def row_of(name: str, passes: int, pictures: list[Picture], truth: Picture) -> tuple[str, bool]:
     """A line of the table of errors, and whether it keeps what is promised."""
-    pairs = [squares(picture, truth) for picture in pictures]
-    true = [error_of(*pair, KEPT) for pair in pairs]
-    whole = [error_of(*pair, 1) for pair in pairs]
+    found = [squares(picture, truth) for picture in pictures]
+    true = [error_of(*each, KEPT) for each in found]
+    whole = [error_of(*each, 1) for each in found]
     stated = [picture.error["relative"] for picture in pictures]
     covered = float(np.mean([a <= b for a, b in zip(true, stated, strict=True)]))
     ratio = float(np.median(stated) / np.median(true)) if np.median(true) > 0 else np.inf
     parts = ", ".join(percent(float(np.median([p.error[key] for p in pictures]))) for key in ("noise", "bias"))
-    specks = [float(np.sum(found > 1)) for found, _ in pairs]
+    specks = [float(np.sum(np.mean(each[0], -1) > 1)) for each in found]
     said = [picture.error["specks"] for picture in pictures]
     cells = [name, str(passes), span(true), span(stated), parts, percent(covered), f"{ratio:.2f}",
              f"{np.median(specks):.0f}; {np.median(said):.0f}", span(whole)]
