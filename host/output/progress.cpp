@@ -55,7 +55,7 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
     if (rendered > 0 && !done && knownEnd) line += fmt::format("  {} left", clockText(left));
     if (error > 0) line += fmt::format("  error {:.2g} %", 100 * error);
     if (forecast && rendered > 0 && !done) {
-        const auto until = [&](double passes) { return clockText((passes - finished) * seconds / rendered); };
+        const auto until = [&](double count) { return clockText((count - finished) * seconds / rendered); };
         line += fmt::format(", {:.2g} % in about {} ({} to {})", 100 * goal.error, until(forecast->likely),
                             until(forecast->least), until(forecast->most));
     }

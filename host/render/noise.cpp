@@ -11,7 +11,7 @@ using glm::dvec3;
 /// Of the gain from fine to coarse batches, in its logarithm, what goes on from batches of some passes to the whole:
 /// measured on the shipped scenes (tools/study truth), where larger batches gain less and less from their points.
 static double lastingGain(double batch, double whole) {
-    const double few = 16, tillFew = 0.75, beyond = 0.35; // passes; parts for each factor of four
+    const double few = 16, tillFew = 0.75, beyond = 0.5; // passes; parts for each factor of four
     const auto steps = [](double from, double to) { return std::log(to / from) / std::log(4.0); };
     return tillFew * steps(std::min(batch, few), std::min(whole, few)) +
            beyond * steps(std::max(batch, few), std::max(whole, few));

@@ -126,7 +126,7 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
     add_common(run, "study")
 
     truth = commands.add_parser(
-        "truth", allow_abbrev=False, epilog=epilog, help="compare the error that is stated with the error that is there",
+        "truth", allow_abbrev=False, epilog=epilog, help="compare the stated error with the true one",
         description="Render scenes with many seeds and once for long, and write tables of stated and true errors, by "
                     "layer and region, with pictures of where intervals fail. What is rendered is kept; the same "
                     "command goes on. Exit code 1 if the stated error of a scene is below the true one more often than "

@@ -107,7 +107,7 @@ class Renders:
 
 
 def squares(picture: Picture, truth: Picture) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Squared relative errors of pixels and colours, what noise makes one expect, and what of that is the truth's own."""
+    """Squared relative errors of pixels and colours, what noise lets one expect, and what is the truth's own."""
     right = truth.layers["beauty"]
     weight = 1 / (right**2 + 0.01)
     own = truth.layers["noise"] ** 2 * weight
@@ -116,7 +116,7 @@ def squares(picture: Picture, truth: Picture) -> tuple[np.ndarray, np.ndarray, n
 
 def error_of(found: np.ndarray, expected: np.ndarray, own: np.ndarray, kept: float) -> float:
     """The root of the mean over the part of the values that are off least, less what the truth is off itself there."""
-    count = found.size - int(round(found.size * (1 - kept)))
+    count = found.size - round(found.size * (1 - kept))
     greatest = np.partition(found, count - 1, axis=None)[count - 1]
     total = np.sum(np.minimum(found, greatest)) - greatest * (found.size - count)
     reach = np.sqrt(greatest / np.maximum(expected, 1e-30))
