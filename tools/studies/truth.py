@@ -218,6 +218,22 @@ def layer_rows(name: str, passes: int, found: dict[str, np.ndarray]) -> list[str
     return [f"| {name} | {passes} | " + " | ".join(cells) + " |"]
 
 
+def worst_rows(name: str, passes: int, pictures: list[Picture], truth: Picture, count: int = 3) -> list[str]:
+    """Lines of the pixels that are off most, in all pictures, with the layer that is off most there."""
+    weight = 1 / (truth.layers["beauty"] ** 2 + 0.01)
+    apart = {layer: np.stack([np.mean((p.layers[layer] - truth.layers[layer]) ** 2 * weight, -1) for p in pictures])
+             for layer in ("beauty", *LIGHT)}
+    rows = []
+    for index in np.argsort(-apart["beauty"], axis=None)[:count]:
+        seed, y, x = (int(i) for i in np.unravel_index(index, apart["beauty"].shape))
+        layer = max(LIGHT, key=lambda name: apart[name][seed, y, x])
+        value, right = (float(p.layers["beauty"][y, x] @ LUMINANCE) for p in (pictures[seed], truth))
+        part = float(apart["beauty"][seed, y, x] / np.sum(apart["beauty"][seed]))
+        rows.append(f"| {name} | {passes} | {seed + 1} | {x}, {y} | {layer} | {value:.3g} | {right:.3g} | "
+                    f"{percent(part)} |")
+    return rows
+
+
 def draw(path: Path, held: np.ndarray, truth: Picture) -> None:
     """The picture, and where intervals hold the truth too seldom (red) or too often (blue)."""
     figure, axes = pyplot.subplots(1, 2, figsize=(9, 4.4), layout="constrained")
@@ -236,7 +252,7 @@ def study_truth(args: argparse.Namespace, options: list[str]) -> int:
     if len({scene.stem for scene in args.scenes}) < len(args.scenes):
         raise Failure("tools/study: --scenes: found two of one file name; allowed: different file names", 2)
     vkpm = Vkpm(args.vkpm)
-    errors, intervals, layers, kept = [HEAD], [], [], True
+    errors, intervals, layers, worst, kept = [HEAD], [], [], [], True
     total = len(args.scenes) * (1 + args.seeds * len(args.passes))
     with tqdm(total=total, unit="picture", disable=args.quiet or None) as progress:
         for scene in args.scenes:
@@ -257,12 +273,16 @@ def study_truth(args: argparse.Namespace, options: list[str]) -> int:
                 held = np.mean([inside(picture, truth) for picture in pictures], 0)
                 intervals += coverage_rows(scene.stem, passes, held, parts)
                 layers += layer_rows(scene.stem, passes, layer_squares(pictures, truth)) if args.seeds > 1 else []
+                worst += worst_rows(scene.stem, passes, pictures, truth)
                 draw(args.output / f"{scene.stem}-{passes}.png", held, truth)
     text = "\n".join([
         "# Errors", "", *errors, "", "# Intervals of pixels", "",
         "| scene | passes | where | part of the picture | intervals that hold the truth |", "| --- " * 5 + "|",
         *intervals, "", "# Squared noise by layer: in the worst fiftieth of the pixels; in the others", "",
-        "| scene | passes | " + " | ".join(LIGHT) + " |", "| --- " * (2 + len(LIGHT)) + "|", *layers, ""])
+        "| scene | passes | " + " | ".join(LIGHT) + " |", "| --- " * (2 + len(LIGHT)) + "|", *layers, "",
+        "# The pixels that are off most", "",
+        "| scene | passes | seed | column, row | layer | luminance | true | part of the picture's squared error |",
+        "| --- " * 8 + "|", *worst, ""])
     (args.output / "truth.md").write_text(text)
     print(text)
     say(f"tools/study: wrote {args.output / 'truth.md'} and pictures of where intervals fail beside it")
