@@ -54,17 +54,20 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
     const bool knownEnd = goal.passes != NONE || std::isfinite(goal.seconds);
     if (rendered > 0 && !done && knownEnd) line += fmt::format("  {} left", clockText(left));
     if (error > 0) line += fmt::format("  error {:.2g} %", 100 * error);
-    if (forecast && rendered > 0 && !done) {
-        const auto until = [&](double count) { return clockText((count - finished) * seconds / rendered); };
-        line += fmt::format(", {:.2g} % in about {} ({} to {})", 100 * goal.error, until(forecast->likely),
-                            until(forecast->least), until(forecast->most));
-    }
+    if (forecast && rendered > 0 && !done)
+        line += ", " + forecastText(goal.error, *forecast, finished, seconds / rendered);
     if (rays > 0 && seconds > 0) line += "  " + rateText(static_cast<double>(rays) / seconds);
     if (bar && line.size() + BAR_WIDTH + 4 <= columns) {
         const size_t full = size_t(BAR_WIDTH * part);
         line = fmt::format("[{:<{}}]  {}", std::string(full, '='), BAR_WIDTH, line);
     }
     return line.substr(0, columns);
+}
+
+std::string forecastText(double target, const PassForecast& forecast, uint passes, double secondsPerPass) {
+    const auto until = [&](double count) { return clockText((count - passes) * secondsPerPass); };
+    return fmt::format("{:.2g} % in about {} ({} to {})", 100 * target, until(forecast.likely), until(forecast.least),
+                       until(forecast.most));
 }
 
 Progress::Progress(const Goal& aim, bool quiet, std::FILE* out)

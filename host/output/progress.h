@@ -23,6 +23,9 @@ struct Goal {
 std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar,
                          double error = 0, const std::optional<PassForecast>& forecast = {});
 
+/// "5 % in about 2:10 (1:30 to 3:20)", for a render that has taken some seconds for each of its passes.
+std::string forecastText(double target, const PassForecast& forecast, uint passes, double secondsPerPass);
+
 /// Reports to `file` (stderr); ends its line when destroyed, and writes nothing between an interrupt and that.
 class Progress {
 public:
