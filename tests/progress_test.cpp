@@ -47,6 +47,7 @@ TEST(Progress, LineSaysWhenTheErrorWillBeReached) {
     EXPECT_EQ(progressLine(10, goal, 20, 0, 200, false, 0.1, PassForecast{30, 40, 70}),
               "pass 10  25 %  0:20 elapsed  error 10 %, 5 % in about 1:00 (0:40 to 2:00)");
     EXPECT_THAT(progressLine(10, goal, 20, 0, 200, false, 0.1), Not(HasSubstr("about")));
+    EXPECT_THAT(progressLine(10, goal, 20, 0, 200, false, 0.04), HasSubstr("99 %"));
 }
 
 TEST(ErrorForecast, FollowsTheCurve) {

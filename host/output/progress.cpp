@@ -43,7 +43,7 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
     const bool done = finished >= goal.passes;
     const uint rendered = finished - goal.first;
     const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
-    const double toError = forecast ? finished / forecast->likely : 0;
+    const double toError = forecast ? finished / forecast->likely : error > 0 && error <= goal.error ? 1 : 0;
     const double part =
         std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, toError}), 0.0, most);
     const double left =

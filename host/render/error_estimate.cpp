@@ -160,16 +160,16 @@ ErrorEstimate estimateError(const std::function<std::vector<Pixel>(uint, uint)>&
         squaresOf(rows, size, row, std::min(rowsAtOnce, size.y - row), pixels.data() + std::size_t(row) * size.x);
     });
     // A single pixel's bias is noisy, and what is noisy must not choose.
-    std::vector<double> bias;
-    bias.reserve(pixels.size());
-    for (const Squares& pixel : pixels) bias.push_back(double{pixel.bias});
-    bias = sumsAround(bias, size);
-    const auto around = [](uint at, uint all) {
+    std::vector<double> around;
+    around.reserve(pixels.size());
+    for (const Squares& pixel : pixels) around.push_back(double{pixel.bias});
+    around = sumsAround(around, size);
+    const auto reached = [](uint at, uint all) {
         return std::min(at + noiseReach, all - 1) - (at - std::min<uint>(at, noiseReach)) + 1;
     };
     const auto expectedOf = [&](std::size_t i) {
-        const uint count = around(uint(i % size.x), size.x) * around(uint(i / size.x), size.y);
-        return dvec3(pixels[i].noise) + std::fmax(bias[i] / count, 0.0);
+        const uint count = reached(uint(i % size.x), size.x) * reached(uint(i / size.x), size.y);
+        return dvec3(pixels[i].noise) + std::fmax(around[i] / count, 0.0);
     };
     const double greatest = greatestKept(pixels.size(), expectedOf);
 
