@@ -11,6 +11,7 @@
 #include "directions.glsl"
 #include "feature_checks.glsl"
 #include "film_layout.glsl"
+#include "glint.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "media.glsl"
@@ -195,6 +196,8 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
+    if (diffuseCount(path.flags) == 0u && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
+        path.throughput *= chooseGlint(scene, material, surface, path.direction, u.x);
     float accepted = isMapped(surface) ? bounceSample(s, 1u).x : 0.0;
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place), accepted);
     uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;

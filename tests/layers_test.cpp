@@ -115,5 +115,40 @@ TEST(Layers, BoxIsNearerToTheTruthAtEqualPasses) {
     }
 }
 
+/// A lamp seen in a sheet of water from straight above, over black; `lamp` is its kind and place.
+nlohmann::json glint(const nlohmann::json& lamp) {
+    nlohmann::json scene{
+        {"camera", {{"origin", {0.1, 2, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"fieldOfView", 1}}},
+        {"film", {{"size", {8, 8}}}},
+        {"materials", {{"water", {{"type", "glass"}, {"ior", 1.5}}}}},
+        {"shapes",
+         {{{"type", "rectangle"}, {"corner", {-1, 0, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "water"}}}}};
+    scene["shapes"].push_back(lamp);
+    return scene;
+}
+
+// Glass reflects a twenty-fifth of what falls upon it at right angles. A pixel that shows a lamp so is right in the
+// mean, and its samples differ by no more than two of equal weight, of which one is black.
+TEST(Glints, AreAsBrightAsTheyShouldBeAndNoSpecks) {
+    const nlohmann::json lamps[]{
+        {{"type", "rectangle"}, {"corner", {-0.2, 2, -0.1}}, {"edges", {{0.2, 0, 0}, {0, 0, 0.2}}}, {"emission", 100}},
+        {{"type", "sphere"}, {"center", {-0.1, 2, 0}}, {"radius", 0.1}, {"emission", 100}}};
+    for (const nlohmann::json& lamp : lamps)
+        for (const auto integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH}) {
+            const Scene scene = loadJson(glint(lamp));
+            Settings settings = scene.settings;
+            settings.integrator = integrator;
+            settings.photons = settings.causticPhotons = 100;
+            const std::vector<Pixel> pixels = renderPasses(scene, settings, 16).pixels;
+            const double right = 0.04 * 100, mean = layerMean(pixels, LAYER_SPECULAR);
+            double squares = 0;
+            for (const Pixel& pixel : pixels) squares += std::pow(double(pixel.noise.x), 2) / double(pixels.size());
+            std::printf("%s: %.3f for %.3f, noise %.3f\n", lamp["type"].get<std::string>().c_str(), mean, right,
+                        std::sqrt(squares));
+            EXPECT_NEAR(mean, right, 4 * right / std::sqrt(16.0 * 64));
+            EXPECT_LT(std::sqrt(squares), 1.3 * right / std::sqrt(16.0)); // by chance alone it would be 4.9 times this
+        }
+}
+
 } // namespace
 } // namespace vkpm

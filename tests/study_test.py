@@ -19,6 +19,7 @@ from studies.cells import matrix
 from studies.curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows
 from studies.page import time_cell
 from studies.reference import Part, Reference, refine
+from studies.truth import error_of
 from studies.vkpm import LIGHT, Vkpm, read_image
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -197,6 +198,50 @@ def test_parts(folder: Path) -> None:
         assert reference.worst() is reference.parts[noisy]
 
 
+# The stated error and the true one.
+
+
+def test_errors_of_known_noise() -> None:
+    """The error of normal errors is their deviation where all count, and less where the worst do not, by as much as
+    normal errors have there; what the truth is off itself is taken off."""
+    random = np.random.default_rng(1)
+    deviation = np.geomspace(0.01, 0.1, 60000).reshape(100, 200, 3)
+    own = np.full_like(deviation, 0.03)
+    found = (random.normal(0, deviation) - random.normal(0, own)) ** 2
+    expected = deviation**2 + own**2
+    assert np.isclose(error_of(found, expected, own**2, 1), np.sqrt(np.mean(deviation**2)), rtol=0.02)
+    alone = error_of(random.normal(0, deviation) ** 2, deviation**2, 0 * own, 0.98)
+    assert np.isclose(error_of(found, expected, own**2, 0.98), alone, rtol=0.05), alone
+    assert alone < 0.95 * np.sqrt(np.mean(deviation**2))
+    # A speck is no error of what is kept.
+    found[50, 100] = 1e6
+    assert np.isclose(error_of(found, expected, own**2, 0.98), alone, rtol=0.05)
+
+
+def test_truth(output: Path) -> None:
+    """Tables have all scenes and passes; nothing is rendered twice, and a changed scene anew."""
+    scene = output / "box.json"
+    output.mkdir()
+    scene.write_text(SCENE.read_text())
+    words = ["truth", "--scenes", scene, "--size", "24x24", "--passes", "8,16", "--seeds", 2, "--reference-passes", 32,
+             "--photons", 2000, "--caustic-photons", 2000, "-o", output, "--vkpm", sys.argv[1], "--quiet"]
+    process = subprocess.run([*STUDY, *map(str, words)], capture_output=True, text=True, timeout=120, check=False)
+    assert process.returncode in (0, 1), process.stderr  # few pixels and seeds prove nothing
+    text = (output / "truth.md").read_text()
+    assert text.strip() == process.stdout.strip()
+    for passes in (8, 16):
+        assert sum(line.startswith(f"| box | {passes} |") for line in text.splitlines()) >= 4, text
+        assert (output / f"box-{passes}.png").stat().st_size > 1000
+    picture = output / "box-24x24/2-16.exr"
+    layers = read_image(picture).layers
+    subprocess.run([*STUDY, *map(str, words)], capture_output=True, timeout=120, check=False)
+    assert (output / "truth.md").read_text() == text
+    scene.write_text(SCENE.read_text().replace("0.725", "0.5"))
+    process = subprocess.run([*STUDY, *map(str, words)], capture_output=True, text=True, timeout=120, check=False)
+    assert "another state" in process.stderr, process.stderr
+    assert not np.allclose(read_image(picture).layers["beauty"], layers["beauty"])
+
+
 # Matrices.
 
 
@@ -297,6 +342,8 @@ def main() -> None:
         test_files(folder)
         test_reference(folder / "references")
         test_parts(folder / "parts")
+        test_errors_of_known_noise()
+        test_truth(folder / "truth")
         test_axes_alone()
         test_matrix(folder / "references", folder / "matrix")
         test_report(folder / "references", folder / "report")

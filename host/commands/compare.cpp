@@ -23,6 +23,7 @@ struct Column {
 
 constexpr Column COLUMNS[] = {{"rmse", "rmse", &LayerError::rmse},
                               {"relmse", "relmse", &LayerError::relmse},
+                              {"error", "error", &LayerError::error},
                               {"mean error", "mean_error", &LayerError::meanError},
                               {"mean relative error", "mean_relative_error", &LayerError::meanRelativeError},
                               {"max error", "max_error", &LayerError::maxError},

@@ -49,7 +49,8 @@ void addImage(Parser& parser, RenderOptions& options, const Settings& defaults, 
                "of rendering, to the nearest pass; ends at --passes if that is given and comes first", options.seconds,
                secondsOf);
     parser.add("--target-error", "E",
-               "relative error, such as 0.01 or 1%, 90 % sure; ends there, or at --passes or --time if given",
+               "stated error, such as 0.01 or 1%, 90 % sure, without the worst 2 %; ends there, or at --passes or "
+               "--time if given",
                options.targetError, errorOf);
     parser.add("--pass-range", "A:B", "render only the passes A to B-1, a part for vkpm merge", options.passRange,
                passRangeOf);

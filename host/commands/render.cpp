@@ -19,7 +19,7 @@ static void renderPasses(RenderJob& job, const RenderOptions& options) {
     onInterrupt("interrupted: finishing this pass, then saving; once more stops at once", false);
     while (!job.done()) {
         job.renderPass();
-        if (job.lastError()) progress.estimate(job.lastError()->error);
+        if (job.lastError()) progress.estimate(job.lastErrorPasses(), job.lastError()->error);
         progress.update(job.passCount(), job.rays());
     }
 }

@@ -135,10 +135,15 @@ void RenderJob::estimate() {
     while (due < count) due += (due + 3) / 4;
     if (!options.targetError || due != count) return;
     error = estimateNow();
+    errorPasses = count;
     hopeless = missesPhotons();
     if (error)
-        log.write("error",
-                  {{"passes", count}, {"error", error->error}, {"noise", error->noise}, {"bias", error->bias}});
+        log.write("error", {{"passes", count},
+                            {"seconds", seconds()},
+                            {"error", error->error},
+                            {"noise", error->noise},
+                            {"bias", error->bias},
+                            {"specks", error->specks}});
 }
 
 void RenderJob::addToReport() {
@@ -153,7 +158,8 @@ float RenderJob::exposure() const { return exposureOf(renderer.film, settings); 
 
 void RenderJob::finishReport() const {
     const std::vector<Pixel> pixels = renderer.film.download();
-    report->finish(filmImage(pixels, settings.size, settings.layers), develop(pixels, exposureOf(settings, pixels)),
+    report->finish({filmImage(pixels, settings.size, settings.layers), develop(pixels, exposureOf(settings, pixels)),
+                    pixels, noiseFreedom(renderer.film.ranges())},
                    {{"scene", options.scene.string()},
                     {"settings", identity.at("settings")},
                     {"version", identity.at("version")},
@@ -250,6 +256,7 @@ Statistics RenderJob::statistics() const {
     s.needed = manifest(renderer.features(), settings, true);
     s.leftOut = manifest(renderer.features(), settings, false);
     s.error = error;
+    s.noiseFreedom = noiseFreedom(renderer.film.ranges());
     s.nonfinite = nonfinite();
     s.warnings = warnings();
     s.setupSeconds = std::chrono::duration<double>(beginning - start).count();

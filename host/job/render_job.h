@@ -59,8 +59,9 @@ public:
     /// Nothing while there are no batches of passes that could differ, if nobody asked for noise, or if photons are
     /// missing.
     std::optional<ErrorEstimate> estimateNow() const;
-    /// The last estimate that --target-error asked for.
+    /// The last estimate that --target-error asked for, and after how many passes.
     const std::optional<ErrorEstimate>& lastError() const { return error; }
+    uint lastErrorPasses() const { return errorPasses; }
     /// What it did so far.
     Statistics statistics() const;
 
@@ -100,6 +101,7 @@ private:
     double renderSeconds = 0;
     double reporting = 0;               // time that reports and the like took, no part of rendering
     std::optional<ErrorEstimate> error; // the last estimate
+    uint errorPasses = 0;               // that it is of
     bool hopeless = false;              // whether there will be none
     std::optional<Report> report;
 };

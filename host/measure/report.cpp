@@ -23,17 +23,20 @@ bool isLight(const Layer& layer) {
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
 std::string estimateCells(const std::optional<ErrorEstimate>& e) {
-    return e ? fmt::format("{},{},{}", cell(e->noise), cell(e->bias), cell(e->error)) : ",,";
+    return e ? fmt::format("{},{},{},{},{}", cell(e->noise), cell(e->bias), cell(e->error), cell(e->least), e->specks)
+             : ",,,,";
 }
 
 std::string tableOf(const std::vector<ReportRow>& rows) {
-    std::string text = "pass,seconds,rays,photons,layer,rmse,relmse,mean_error,flip,noise,bias,error\n";
+    std::string text =
+        "pass,seconds,rays,photons,layer,rmse,relmse,mean_error,flip,true_error,noise,bias,error,least,specks\n";
     for (const ReportRow& row : rows) {
         const std::string begin = fmt::format("{},{:.4f},{},{}", row.passes, row.seconds, row.rays, row.photons);
-        if (row.layers.empty()) text += fmt::format("{},beauty,,,,,{}\n", begin, estimateCells(row.estimate));
+        if (row.layers.empty()) text += fmt::format("{},beauty,,,,,,{}\n", begin, estimateCells(row.estimate));
         for (const auto& [name, e] : row.layers)
-            text += fmt::format("{},{},{},{},{},{},{}\n", begin, name, cell(e.rmse), cell(e.relmse), cell(e.meanError),
-                                cell(e.flip), name == "beauty" ? estimateCells(row.estimate) : ",,");
+            text +=
+                fmt::format("{},{},{},{},{},{},{},{}\n", begin, name, cell(e.rmse), cell(e.relmse), cell(e.meanError),
+                            cell(e.flip), cell(e.error), estimateCells(name == "beauty" ? row.estimate : std::nullopt));
     }
     return text;
 }
@@ -69,8 +72,32 @@ bool Report::due(uint passes) {
     return false;
 }
 
-void Report::add(ReportRow row, const Image& image) {
+std::map<std::string, double> layerNoise(const Image& image, uint passes, const Image& earlier, uint before) {
+    std::map<std::string, double> noise;
+    const std::vector<Layer> layers = imageLayers(image), others = imageLayers(earlier);
+    const auto beauty = std::ranges::find(layers, std::string("beauty"), &Layer::name);
+    if (beauty == layers.end() || before == 0 || before >= passes) return noise;
+    // The means of the first passes and of the rest are independent: the square of their difference is expected to be
+    // the variance of a pass times 1 / before + 1 / (passes - before).
+    const double scale = double(before) / (passes - before);
+    for (const Layer& layer : layers) {
+        const Layer* other = isLight(layer) ? comparableIn(others, layer) : nullptr;
+        if (!other) continue;
+        std::vector<float> squares;
+        for (std::size_t c = 0; c < 3; c++)
+            for (std::size_t i = 0; i < layer.channels[c].size(); i++) {
+                const double apart = double{layer.channels[c][i]} - double{other->channels[c][i]},
+                             light = double{beauty->channels[c][i]};
+                squares.push_back(static_cast<float>(scale * apart * apart / (light * light + 0.01)));
+            }
+        noise[layer.name] = keptError(squares);
+    }
+    return noise;
+}
+
+void Report::add(ReportRow row, Image image) {
     if (!all.empty() && all.back().passes == row.passes) return;
+    if (!all.empty()) row.noise = layerNoise(image, row.passes, last, all.back().passes);
     if (reference) {
         const std::vector<Layer> references = imageLayers(*reference);
         for (const Layer& layer : imageLayers(image))
@@ -78,12 +105,12 @@ void Report::add(ReportRow row, const Image& image) {
                 row.layers[layer.name] = measureLayer(layer, *other);
     }
     all.push_back(std::move(row));
+    last = std::move(image);
     replaceFile(folder / "error.csv", tableOf(all));
 }
 
-void Report::finish(const Image& image, std::span<const uint> picture,
-                    const std::vector<std::pair<std::string, std::string>>& facts) const {
-    replaceFile(folder / "index.html", reportPage(all, image, picture, reference ? &*reference : nullptr, facts));
+void Report::finish(const ReportPicture& picture, const std::vector<std::pair<std::string, std::string>>& facts) const {
+    replaceFile(folder / "index.html", reportPage(all, picture, reference ? &*reference : nullptr, facts));
 }
 
 double fittedSlope(std::span<const double> xs, std::span<const double> ys) {

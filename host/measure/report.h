@@ -18,6 +18,15 @@ struct ReportRow {
     std::uint64_t photons = 0;                  // emitted
     std::map<std::string, LayerError> layers{}; // of light; empty without a reference
     std::optional<ErrorEstimate> estimate{};    // of beauty
+    std::map<std::string, double> noise{};      // of layers of light, over beauty, see layerNoise
+};
+
+/// What the page shows of the last picture.
+struct ReportPicture {
+    const Image& image;
+    std::span<const uint> developed; // 8-bit sRGB
+    std::span<const Pixel> pixels;
+    uint noiseFreedom; // degrees
 };
 
 /// A folder with error.csv, written anew with each row, and index.html.
@@ -33,12 +42,11 @@ public:
     void requireSize(uvec2 size) const;
     /// Whether a row is due: passes grow by the square root of two.
     static bool due(uint passes);
-    /// Adds a row; `image` is measured against the reference.
-    void add(ReportRow row, const Image& image);
-    /// Writes the page: the last picture as 8-bit sRGB, its errors, the curves. `facts` are what it shows of the
+    /// Adds a row; `image` is measured against the reference, and against the image of the row before.
+    void add(ReportRow row, Image image);
+    /// Writes the page: the last picture, its errors and intervals, the curves. `facts` are what it shows of the
     /// render.
-    void finish(const Image& image, std::span<const uint> picture,
-                const std::vector<std::pair<std::string, std::string>>& facts) const;
+    void finish(const ReportPicture& picture, const std::vector<std::pair<std::string, std::string>>& facts) const;
 
     const std::vector<ReportRow>& rows() const { return all; }
 
@@ -46,8 +54,13 @@ private:
     std::filesystem::path folder;
     std::optional<std::filesystem::path> referenceFile;
     std::optional<Image> reference;
+    Image last{}; // of the last row
     std::vector<ReportRow> all;
 };
+
+/// Standard errors of the layers of light of a mean over `passes` passes, from how it differs from the mean of the
+/// first `before` of them: relative to beauty, roots of means over the values of each layer that keptValues() keeps.
+std::map<std::string, double> layerNoise(const Image& image, uint passes, const Image& earlier, uint before);
 
 /// Slope of a straight line through the logarithms of ys over those of xs, by least squares; NaN with fewer than two
 /// points.

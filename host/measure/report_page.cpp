@@ -62,6 +62,28 @@ std::string figure(uvec2 size, std::span<const uint> colors, const std::string& 
                        size.x, size.y, escaped(caption), base64(encodePng(size, colors)), escaped(caption));
 }
 
+/// A colour for a relative error from 0.1 % to 100 %, by its square.
+uint errorColor(double square) { return mapColor(1 + std::log10(std::sqrt(square)) / 3); }
+const char* const errorColors = "from 0.1 % (dark) to 100 % (yellow), logarithmic";
+
+/// Half of each pixel's interval over its value.
+std::string intervalMap(const ReportPicture& picture) {
+    if (picture.noiseFreedom == 0) return "";
+    std::vector<uint> colors;
+    for (const Pixel& pixel : picture.pixels) {
+        const vec3 half = halfInterval(pixel, picture.noiseFreedom);
+        double square = 0;
+        for (int c = 0; c < 3; c++) {
+            double value = 0;
+            for (const vec3& layer : pixel.mean.layers) value += double{layer[c]};
+            square += double{half[c]} * double{half[c]} / (value * value + 0.01) / 3;
+        }
+        colors.push_back(errorColor(square));
+    }
+    return figure(picture.image.size, colors,
+                  fmt::format("Intervals: the truth is within so much of nine pixels of ten, {}", errorColors));
+}
+
 const Layer* beautyOf(const std::vector<Layer>& layers) {
     const auto found = std::ranges::find(layers, std::string("beauty"), &Layer::name);
     return found == layers.end() ? nullptr : &*found;
@@ -79,16 +101,17 @@ std::string errorMaps(const Image& image, const Image& reference) {
             const double x = ours->channels[c][i], r = theirs->channels[c][i];
             square += (x - r) * (x - r) / (r * r + 0.01) / 3;
         }
-        relative.push_back(mapColor(1 + std::log10(std::sqrt(square)) / 3)); // 0.001 to 1
+        relative.push_back(errorColor(square));
     }
     for (const float value : flipMap(*ours, *theirs)) flip.push_back(mapColor(double(value)));
-    return figure(image.size, relative, "Relative error, from 0.1 % (dark) to 100 % (yellow), logarithmic") +
+    return figure(image.size, relative, fmt::format("Relative error, {}", errorColors)) +
            figure(image.size, flip, "FLIP, from 0 (dark) to 1 (yellow)");
 }
 
 struct Curve {
     std::string name;
     std::vector<double> xs, ys;
+    std::vector<double> lows{}; // the lower end of a band below ys; empty for a line
 };
 
 /// Colours that colour-blind people tell apart (Okabe & Ito 2008).
@@ -106,6 +129,8 @@ public:
                 if (!(curve.xs[i] > 0 && curve.ys[i] > 0)) continue;
                 positive.xs.push_back(curve.xs[i]);
                 positive.ys.push_back(curve.ys[i]);
+                if (!curve.lows.empty()) positive.lows.push_back(std::max(curve.lows[i], 0.3 * curve.ys[i]));
+                if (!curve.lows.empty()) include(y, positive.lows.back());
                 include(x, curve.xs[i]);
                 include(y, curve.ys[i]);
             }
@@ -169,12 +194,21 @@ private:
     }
 
     std::string line(const Curve& curve, const char* ink, std::size_t index) const {
+        const double row = top + 16 + 22 * double(index);
+        const auto place = [&](double px, double py) {
+            return fmt::format("{:.1f},{:.1f} ", placeX(std::log10(px)), placeY(std::log10(py)));
+        };
         std::string points;
-        for (std::size_t i = 0; i < curve.xs.size(); i++)
-            points += fmt::format("{:.1f},{:.1f} ", placeX(std::log10(curve.xs[i])), placeY(std::log10(curve.ys[i])));
+        for (std::size_t i = 0; i < curve.xs.size(); i++) points += place(curve.xs[i], curve.ys[i]);
+        if (!curve.lows.empty()) {
+            for (std::size_t i = curve.xs.size(); i-- > 0;) points += place(curve.xs[i], curve.lows[i]);
+            return fmt::format("<polygon points=\"{0}\" fill=\"{1}\" fill-opacity=\".25\"/>\n<rect x=\"{2}\" "
+                               "y=\"{3}\" width=\"16\" height=\"12\" fill=\"{1}\" fill-opacity=\".25\"/><text "
+                               "x=\"{4}\" y=\"{5}\">{6}</text>\n",
+                               points, ink, right + 12, row - 10, right + 34, row, escaped(curve.name));
+        }
         const double slope = fittedSlope(curve.xs, curve.ys);
         const std::string label = curve.name + (std::isfinite(slope) ? fmt::format(", slope {:.2f}", slope) : "");
-        const double row = top + 16 + 22 * double(index);
         std::string out =
             fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", points, ink);
         for (std::size_t i = 0; i < curve.xs.size(); i++)
@@ -191,28 +225,43 @@ private:
     Span x, y;
 };
 
-/// A curve of each layer, and of the render's own estimate of beauty.
-std::vector<Curve> curvesOf(const std::vector<ReportRow>& rows, double LayerError::*measure, bool root, bool overPasses,
-                            bool estimates) {
-    std::map<std::string, Curve> layers;
-    Curve estimate{"beauty, estimated", {}, {}};
+/// What a render states of its error, as a band, what that is made of, and what the error is.
+std::vector<Curve> statedCurves(const std::vector<ReportRow>& rows) {
+    Curve band{"stated", {}, {}}, noise{"noise", {}, {}}, bias{"bias", {}, {}}, found{"true error", {}, {}};
     for (const ReportRow& row : rows) {
-        const double x = overPasses ? row.passes : row.seconds;
-        for (const auto& [name, error] : row.layers) {
-            Curve& curve = layers[name];
-            curve.name = name;
-            curve.xs.push_back(x);
-            curve.ys.push_back(root ? std::sqrt(error.*measure) : error.*measure);
+        if (const auto beauty = row.layers.find("beauty"); beauty != row.layers.end()) {
+            found.xs.push_back(row.seconds);
+            found.ys.push_back(beauty->second.error);
         }
         if (!row.estimate) continue;
-        estimate.xs.push_back(x);
-        estimate.ys.push_back(row.estimate->error);
+        for (Curve* curve : {&band, &noise, &bias}) curve->xs.push_back(row.seconds);
+        band.ys.push_back(row.estimate->error);
+        band.lows.push_back(row.estimate->least);
+        noise.ys.push_back(row.estimate->noise);
+        bias.ys.push_back(row.estimate->bias);
+    }
+    return {band, noise, bias, found};
+}
+
+/// A curve of each layer, beauty first.
+std::vector<Curve> curvesOf(const std::vector<ReportRow>& rows, double LayerError::*measure, bool overPasses) {
+    std::map<std::string, Curve> layers;
+    for (const ReportRow& row : rows) {
+        const auto add = [&](const std::string& name, double value) {
+            Curve& curve = layers[name];
+            curve.name = name;
+            curve.xs.push_back(overPasses ? row.passes : row.seconds);
+            curve.ys.push_back(value);
+        };
+        if (measure)
+            for (const auto& [name, error] : row.layers) add(name, error.*measure);
+        else
+            for (const auto& [name, noise] : row.noise) add(name, noise);
     }
     std::vector<Curve> curves;
     if (layers.contains("beauty")) curves.push_back(layers["beauty"]);
     for (auto& [name, curve] : layers)
         if (name != "beauty") curves.push_back(curve);
-    if (estimates) curves.push_back(estimate); // last, so that layers have the same colours in all diagrams
     return curves;
 }
 
@@ -221,27 +270,46 @@ std::string diagrams(const std::vector<ReportRow>& rows) {
     const auto add = [&](const char* title, const std::string& svg) {
         if (!svg.empty()) out += fmt::format("<h2>{}</h2>\n{}", title, svg);
     };
-    add("Relative error against time",
-        Diagram("seconds of rendering", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, false, true))
-            .svg());
-    add("Relative error against passes",
-        Diagram("passes", "root of relMSE", curvesOf(rows, &LayerError::relmse, true, true, true)).svg());
-    add("RMSE against time",
-        Diagram("seconds of rendering", "RMSE", curvesOf(rows, &LayerError::rmse, false, false, false)).svg());
+    const bool known = !rows.empty() && !rows.back().layers.empty();
+    add("Error of the picture against time", Diagram("seconds of rendering", "error", statedCurves(rows)).svg());
+    if (!known) add("Noise of layers against passes", Diagram("passes", "noise", curvesOf(rows, nullptr, true)).svg());
+    add("Error of layers against passes", Diagram("passes", "error", curvesOf(rows, &LayerError::error, true)).svg());
+    add("RMSE against time", Diagram("seconds of rendering", "RMSE", curvesOf(rows, &LayerError::rmse, false)).svg());
     add("FLIP against time",
-        Diagram("seconds of rendering", "mean FLIP", curvesOf(rows, &LayerError::flip, false, false, false)).svg());
+        Diagram("seconds of rendering", "mean FLIP", curvesOf(rows, &LayerError::flip, false)).svg());
     return out;
 }
 
-std::string lastRow(const ReportRow& row) {
-    if (row.layers.empty()) return "";
+/// Layers after the last pass: their part of the light, their noise, and, with a reference, their errors.
+std::string layerTable(const ReportRow& row, const Image& image) {
+    std::map<std::string, double> light;
+    for (const Layer& layer : imageLayers(image))
+        for (const std::span<const float> channel : layer.channels)
+            for (const float value : channel) light[layer.name] += double{value};
+    if (row.noise.empty() && row.layers.empty()) return "";
+    const bool known = !row.layers.empty();
     std::string out =
-        "<h2>After the last pass</h2>\n<div "
-        "class=\"wide\"><table><tr><th>layer</th><th>RMSE</th><th>relMSE</th><th>mean error</th><th>FLIP</th></tr>\n";
-    for (const auto& [name, e] : row.layers)
-        out += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:+.4g}</td><td>{:.4g}</td></tr>\n", name,
-                           e.rmse, e.relmse, e.meanError, e.flip);
-    return out + "</table></div>\n";
+        fmt::format("<h2>Layers after the last pass</h2>\n<div class=\"wide\"><table><tr><th>layer</th>"
+                    "<th>part of the light</th><th>noise</th>{}</tr>\n",
+                    known ? "<th>error</th><th>relMSE</th><th>RMSE</th><th>mean error</th><th>FLIP</th>" : "");
+    std::vector<std::string> names;
+    for (const auto& [name, noise] : row.noise) names.push_back(name);
+    for (const auto& [name, error] : row.layers)
+        if (!row.noise.contains(name)) names.push_back(name);
+    for (const std::string& name : names) {
+        const auto noise = row.noise.find(name);
+        out += fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{}</td>", name, 100 * light[name] / light["beauty"],
+                           noise == row.noise.end() ? "" : fmt::format("{:.2g} %", 100 * noise->second));
+        if (const auto found = row.layers.find(name); found != row.layers.end()) {
+            const LayerError& e = found->second;
+            out += fmt::format("<td>{:.2g} %</td><td>{:.4g}</td><td>{:.4g}</td><td>{:+.4g}</td><td>{:.4g}</td>",
+                               100 * e.error, e.relmse, e.rmse, e.meanError, e.flip);
+        }
+        out += "</tr>\n";
+    }
+    return out + "</table></div>\n<p>Noise of a layer is relative to beauty, by how the last passes differ from those "
+                 "before; errors are relative to the layer itself. Noise and error are those of the 98 % of the values "
+                 "that are off least, relMSE and RMSE those of all.</p>\n";
 }
 
 const char* const STYLE = R"(:root { color-scheme: light dark; }
@@ -256,24 +324,27 @@ dt { font-weight: 600; } dd { margin: 0 0 .4em 0; overflow-wrap: anywhere; })";
 
 } // namespace
 
-std::string reportPage(const std::vector<ReportRow>& rows, const Image& image, std::span<const uint> picture,
-                       const Image* reference, const std::vector<std::pair<std::string, std::string>>& facts) {
+std::string reportPage(const std::vector<ReportRow>& rows, const ReportPicture& picture, const Image* reference,
+                       const std::vector<std::pair<std::string, std::string>>& facts) {
+    const Image& image = picture.image;
     std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta "
                                    "name=\"viewport\" content=\"width=device-width\">"
                                    "<title>vkpm: error against run "
                                    "time</title>\n<style>{}</style></head>\n<body>\n<h1>Error against run time</h1>\n",
                                    STYLE);
     if (!rows.empty() && rows.back().estimate)
-        page += fmt::format("<p>The render's own estimate after {} passes: {}.</p>\n", rows.back().passes,
-                            describe(*rows.back().estimate));
-    page += figure(image.size, picture,
+        page += fmt::format("<p>The render's own estimate after {} passes: {}. Of all values, luck included, it is "
+                            "{:.2g} %.</p>\n",
+                            rows.back().passes, describe(*rows.back().estimate), 100 * rows.back().estimate->whole);
+    page += figure(image.size, picture.developed,
                    fmt::format("After {} passes, {:.2f} s of rendering", rows.empty() ? 0 : rows.back().passes,
                                rows.empty() ? 0.0 : rows.back().seconds));
+    page += intervalMap(picture);
     if (reference) page += errorMaps(image, *reference);
     page += diagrams(rows);
-    page += "<p>Slopes are those of straight lines through all points of a curve. The estimate is an upper bound that "
-            "holds with a probability of 90 %.</p>\n";
-    if (!rows.empty()) page += lastRow(rows.back());
+    page += "<p>Slopes are those of straight lines through all points of a curve. The true error lies within the band "
+            "with a probability of 80 %, below its upper end with one of 90 %.</p>\n";
+    if (!rows.empty()) page += layerTable(rows.back(), image);
     page += "<h2>The render</h2>\n<dl>\n";
     for (const auto& [name, value] : facts)
         page += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));

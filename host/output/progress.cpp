@@ -39,13 +39,13 @@ size_t terminalColumns(std::FILE* file) {
 } // namespace
 
 std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar,
-                         double error) {
+                         double error, const std::optional<PassForecast>& forecast) {
     const bool done = finished >= goal.passes;
     const uint rendered = finished - goal.first;
     const double most = done ? 1 : 1 - 1e-12; // while work is left, not 100 %
-    const double inverseDistance = error > 0 ? goal.error * goal.error / (error * error) : 0;
+    const double toError = forecast ? finished / forecast->likely : error > 0 && error <= goal.error ? 1 : 0;
     const double part =
-        std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, inverseDistance}), 0.0, most);
+        std::clamp(std::max({double(finished) / goal.passes, seconds / goal.seconds, toError}), 0.0, most);
     const double left =
         rendered > 0 ? std::min(seconds / rendered * (goal.passes - finished), goal.seconds - seconds) : 0;
     const std::string passes = goal.passes == NONE ? "" : fmt::format("/{}", goal.passes);
@@ -54,12 +54,20 @@ std::string progressLine(uint finished, const Goal& goal, double seconds, std::u
     const bool knownEnd = goal.passes != NONE || std::isfinite(goal.seconds);
     if (rendered > 0 && !done && knownEnd) line += fmt::format("  {} left", clockText(left));
     if (error > 0) line += fmt::format("  error {:.2g} %", 100 * error);
+    if (forecast && rendered > 0 && !done)
+        line += ", " + forecastText(goal.error, *forecast, finished, seconds / rendered);
     if (rays > 0 && seconds > 0) line += "  " + rateText(static_cast<double>(rays) / seconds);
     if (bar && line.size() + BAR_WIDTH + 4 <= columns) {
         const size_t full = size_t(BAR_WIDTH * part);
         line = fmt::format("[{:<{}}]  {}", std::string(full, '='), BAR_WIDTH, line);
     }
     return line.substr(0, columns);
+}
+
+std::string forecastText(double target, const PassForecast& forecast, uint passes, double secondsPerPass) {
+    const auto until = [&](double count) { return clockText((count - passes) * secondsPerPass); };
+    return fmt::format("{:.2g} % in about {} ({} to {})", 100 * target, until(forecast.likely), until(forecast.least),
+                       until(forecast.most));
 }
 
 Progress::Progress(const Goal& aim, bool quiet, std::FILE* out)
@@ -77,6 +85,11 @@ Progress::~Progress() {
     } else if (shown != finished) {
         log(lastSeconds);
     }
+}
+
+void Progress::estimate(uint passes, double error) {
+    lastError = error;
+    forecast.add(passes, error);
 }
 
 void Progress::update(uint done, std::uint64_t count) {
@@ -107,17 +120,22 @@ bool Progress::due(double seconds) const {
     return shown == goal.first || seconds - reported + pass > interval;
 }
 
+std::string Progress::line(double seconds, size_t columns, bool bar) const {
+    const auto toGoal = goal.error > 0 ? forecast.passesTo(goal.error) : std::nullopt;
+    return progressLine(finished, goal, seconds, rays, columns, bar, lastError, toGoal);
+}
+
 /// Writes over the line, blanks over what remains of a longer one.
 void Progress::draw(double seconds) {
     const size_t columns = terminalColumns(file);
-    const std::string line = progressLine(finished, goal, seconds, rays, columns, true, lastError);
-    writeText(file, fmt::format("\r{:<{}}", line, std::min(drawn, columns)));
-    drawn = line.size();
+    const std::string text = line(seconds, columns, true);
+    writeText(file, fmt::format("\r{:<{}}", text, std::min(drawn, columns)));
+    drawn = text.size();
     shown = finished;
 }
 
 void Progress::log(double seconds) {
-    writeText(file, progressLine(finished, goal, seconds, rays, 200, false, lastError) + "\n");
+    writeText(file, line(seconds, 200, false) + "\n");
     shown = finished;
 }
 

@@ -1,6 +1,6 @@
 /// How far a render is: one line redrawn on a terminal, a line now and then elsewhere.
 #pragma once
-#include "shared.h"
+#include "output/forecast.h"
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -19,10 +19,12 @@ struct Goal {
 
 /// Passes done, percent, time elapsed and left, and rays per second, in at most `columns` characters; a bar if
 /// there is room for one and `bar` is set. Time left comes from the mean of the finished passes. `error` is the last
-/// estimate, if there is one; it falls as the root of time at best, so that progress towards a goal goes with its
-/// square.
+/// estimate, if there is one, and `forecast` says when it will be the goal.
 std::string progressLine(uint finished, const Goal& goal, double seconds, std::uint64_t rays, size_t columns, bool bar,
-                         double error = 0);
+                         double error = 0, const std::optional<PassForecast>& forecast = {});
+
+/// "5 % in about 2:10 (1:30 to 3:20)", for a render that has taken some seconds for each of its passes.
+std::string forecastText(double target, const PassForecast& forecast, uint passes, double secondsPerPass);
 
 /// Reports to `file` (stderr); ends its line when destroyed, and writes nothing between an interrupt and that.
 class Progress {
@@ -35,13 +37,14 @@ public:
     /// `finished` passes are done, with `rays` in all of them.
     void update(uint finished, std::uint64_t rays);
 
-    /// The relative error is estimated anew.
-    void estimate(double error) { lastError = error; }
+    /// The relative error after some passes.
+    void estimate(uint passes, double error);
 
     /// The same at a given time since the beginning, in seconds.
     void update(uint finished, std::uint64_t rays, double seconds);
 
 private:
+    std::string line(double seconds, size_t columns, bool bar) const;
     void draw(double seconds);
     void log(double seconds);
     bool due(double seconds) const;
@@ -55,6 +58,7 @@ private:
     uint shown;             // passes finished at the last report
     double lastSeconds = 0; // of the last update
     double lastError = 0;
+    ErrorForecast forecast;
     double reported = 0; // time of the last report
     double interval = 0; // least time between reports
     size_t drawn = 0;    // characters on the line

@@ -72,7 +72,10 @@ std::string statisticsJson(const Statistics& statistics) {
     object["left_out"] = statistics.leftOut;
     object["error"] = nullptr;
     if (const auto& e = statistics.error)
-        object["error"] = {{"relative", e->error}, {"noise", e->noise}, {"bias", e->bias}, {"confidence", 0.9}};
+        object["error"] = {{"relative", e->error},   {"noise", e->noise},
+                           {"bias", e->bias},        {"confidence", 0.9},
+                           {"kept", KEPT},           {"specks", e->specks},
+                           {"all_pixels", e->whole}, {"quantile", intervalQuantile(statistics.noiseFreedom)}};
     object["nonfinite"] = statistics.nonfinite;
     object["warnings"] = statistics.warnings;
     return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -43,6 +43,7 @@ struct Statistics {
     std::vector<std::string> needed{};  // what the render has, and why
     std::vector<std::string> leftOut{}; // what it does without, and why
     std::optional<ErrorEstimate> error{};
+    uint noiseFreedom = 0;       // degrees, of the noise of pixels
     std::uint64_t nonfinite = 0; // samples that count as black
     std::vector<std::string> warnings{};
 };

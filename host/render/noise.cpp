@@ -8,9 +8,14 @@ namespace vkpm {
 
 using glm::dvec3;
 
-// Of the gain from fine to coarse batches, in its logarithm, what goes on from coarse batches to the whole: measured on
-// the shipped scenes, where the spread of ten seeds asks for 0.55 to 1.
-const double lasting = 0.75;
+/// Of the gain from fine to coarse batches, in its logarithm, what goes on from batches of some passes to the whole:
+/// measured on the shipped scenes (tools/study truth), where larger batches gain less and less from their points.
+static double lastingGain(double batch, double whole) {
+    const double few = 16, tillFew = 0.75, beyond = 0.5; // passes; parts for each factor of four
+    const auto steps = [](double from, double to) { return std::log(to / from) / std::log(4.0); };
+    return tillFew * steps(std::min(batch, few), std::min(whole, few)) +
+           beyond * steps(std::max(batch, few), std::max(whole, few));
+}
 
 void SpreadSum::add(PassRange run, uint size, const dvec3& sum, const dvec3& fine, const dvec3& coarse) {
     const double w = double(length(run)) / size;
@@ -37,7 +42,10 @@ Levels levelsOf(std::span<const PassRange> runs) {
     return {batchesOf(runs, size), size >= 4 ? batchesOf(runs, size / 4) : Batches{}};
 }
 
-/// Sums of a value over the pixels within reach, by columns and then by rows.
+double total(const dvec3& v) { return v.x + v.y + v.z; }
+
+} // namespace
+
 std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
     const int width = int(size.x), height = int(size.y);
     const auto sum = [&](const std::vector<double>& in, int x, int y, int dx, int dy) {
@@ -49,6 +57,7 @@ std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
         }
         return total;
     };
+    // By columns, then by rows.
     std::vector<double> rows(values.size()), all(values.size());
     for (int y = 0, i = 0; y < height; y++)
         for (int x = 0; x < width; x++, i++) rows[std::size_t(i)] = sum(values, x, y, 1, 0);
@@ -56,10 +65,6 @@ std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size) {
         for (int x = 0; x < width; x++, i++) all[std::size_t(i)] = sum(rows, x, y, 0, 1);
     return all;
 }
-
-double total(const dvec3& v) { return v.x + v.y + v.z; }
-
-} // namespace
 
 std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::span<const PassRange> runs) {
     std::vector<vec3> noise;
@@ -78,12 +83,13 @@ std::vector<vec3> noiseOf(const std::vector<Spread>& spreads, uvec2 size, std::s
     coarse = sumsAround(coarse, size);
     fine = sumsAround(fine, size);
     // Batches four times as large: one step. Both sizes count by their degrees of freedom.
-    const double steps = lasting * std::log(levels.coarse.weight) / std::log(4.0);
+    const double lasting = lastingGain(levels.coarse.size, levels.coarse.size * levels.coarse.weight);
     const double a = levels.coarse.count - 1, b = levels.fine.count - 1;
     for (std::size_t i = 0; i < spreads.size(); i++) {
         const double gain = fine[i] > 0 ? std::min(coarse[i] / fine[i], 1.0) : 1;
         const dvec3 variance =
-            (a * std::pow(gain, steps) * spreads[i].coarse + b * std::pow(gain, steps + 1) * spreads[i].fine) / (a + b);
+            (a * std::pow(gain, lasting) * spreads[i].coarse + b * std::pow(gain, lasting + 1) * spreads[i].fine) /
+            (a + b);
         noise.push_back(vec3(glm::sqrt(variance)));
     }
     return noise;

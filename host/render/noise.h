@@ -30,6 +30,9 @@ private:
     double weight = 0;
 };
 
+/// Sums of a value over the pixels within reach of each one.
+std::vector<double> sumsAround(const std::vector<double>& values, uvec2 size);
+
 /// Standard errors of the means of pixels from their spreads, row by row. Points of a low-discrepancy sequence
 /// complement each other: the larger a batch, the better its mean, compared to independent points. How much is measured
 /// from fine to coarse batches in the 7 x 7 pixels around, and supposed to go on, if less, from coarse batches to the

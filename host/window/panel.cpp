@@ -1,5 +1,6 @@
 /// The panel with ImGui.
 #include "window/panel.h"
+#include "output/progress.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -77,6 +78,13 @@ void showError(const RenderState& s) {
     line(fmt::format("{:.2g} %", 100 * e.error));
     ImGui::SameLine();
     ImGui::TextColored(dim, "noise %.2g %%, bias %.2g %%; 90 %% sure", 100 * e.noise, 100 * e.bias);
+    note(fmt::format("without the worst {:.0f} % ({} specks)", 100 * (1 - KEPT), e.specks));
+    if (s.targetError && s.activity == Activity::rendering) {
+        ErrorForecast forecast;
+        for (const ErrorPoint& point : s.errors) forecast.add(point.passes, point.error.error);
+        if (const auto passes = forecast.passesTo(*s.targetError))
+            note(forecastText(*s.targetError, *passes, s.passes, s.seconds / std::max(s.passes, 1u)));
+    }
     drawErrorCurve(s.errors, 6.5f * ImGui::GetFontSize());
 }
 

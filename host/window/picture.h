@@ -69,6 +69,7 @@ struct RenderState {
     std::optional<GatherRadii> causticRadii{};
     float radiusFactor = 1; // now
     std::vector<ErrorPoint> errors{};
+    std::optional<double> targetError{}; // to stop at
     std::vector<std::string> leftOut{};
 };
 

@@ -366,6 +366,7 @@ void RenderThread::update(Activity activity) {
         own.passes = job.passCount();
         own.passesWanted = job.passesWanted().end == NONE ? NONE : length(job.passesWanted());
         own.seconds = job.seconds();
+        own.targetError = commandLine.targetError;
         own.rays = job.rays();
         own.photons = job.photons();
         own.globalRadii = job.globalRadii();

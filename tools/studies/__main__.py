@@ -9,6 +9,7 @@ from pathlib import Path
 
 from studies.reference import make_references
 from studies.run import run_study
+from studies.truth import study_truth
 from studies.vkpm import VKPM, Failure, say
 
 OF_THE_STUDY = {"-o", "--output", "--scene", "--size", "--integrator", "--layers", "--seed", "--passes", "--pass-range",
@@ -124,6 +125,21 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
         help="of tools/study reference (default: %(default)s, here)")
     add_common(run, "study")
 
+    truth = commands.add_parser(
+        "truth", allow_abbrev=False, epilog=epilog, help="compare the stated error with the true one",
+        description="Render scenes with many seeds and once for long, and write tables of stated and true errors, by "
+                    "layer and region, with pictures of where intervals fail. What is rendered is kept; the same "
+                    "command goes on. Exit code 1 if the stated error of a scene is below the true one more often than "
+                    "once in ten, or its median above 1.3 times the true one's.")
+    add = truth.add_argument
+    add("--scenes", type=list_of(scene), required=True, metavar="FILE,FILE", help="scenes to render")
+    add("--passes", type=list_of(count), default=[16, 64], metavar="N,N", help="numbers of passes (default 16,64)")
+    add("--seeds", type=count, default=20, metavar="N", help="renders of each (default 20)")
+    add("--reference-passes", type=count, default=256, metavar="N",
+        help="of the long render, which has 200000 photons of each kind in a pass, and states its own error "
+             "(default 256)")
+    add_common(truth, "truth")
+
     args, options = parser.parse_known_args()
     if args.command == "run" and args.alone and not args.axis:
         parser.error("--alone: there is no axis; allowed: with at least one --axis")
@@ -139,7 +155,7 @@ def main() -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
-        return {"reference": make_references, "run": run_study}[args.command](args, options)
+        return {"reference": make_references, "run": run_study, "truth": study_truth}[args.command](args, options)
     except Failure as failure:
         say(str(failure))
         return failure.code
