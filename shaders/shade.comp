@@ -196,7 +196,8 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
-    if (diffuseCount(path.flags) == 0u && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
+    // At the first few vertices alone: each choice may double the weight of what goes on.
+    if (diffuseCount(path.flags) == 0u && specularRun(path.flags) < 4u && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
         path.throughput *= chooseGlint(scene, material, surface, path.direction, u.x);
     float accepted = isMapped(surface) ? bounceSample(s, 1u).x : 0.0;
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place), accepted);
