@@ -12,7 +12,7 @@ import OpenEXR
 from PIL import Image
 
 NOISY = ("direct", "specular", "caustic", "indirect")  # layers of light; of emission only edges have noise
-WINDOW = 7  # pixels, over which the denoiser is judged
+BELIEVED = 2  # standard errors of the picture, within which the denoiser is right
 
 Channels = dict[str, np.ndarray]  # by name, each of height and width
 
@@ -115,19 +115,13 @@ def denoised(color: np.ndarray, albedo: np.ndarray | None, normal: np.ndarray | 
         raise Failure(f"{error}; a smaller picture takes less memory", 1) from error
 
 
-def box(values: np.ndarray) -> np.ndarray:
-    """Sums over windows of WINDOW x WINDOW pixels, less at the edges of the picture."""
-    half = WINDOW // 2
-    padded = np.pad(values.astype(np.float64), half + 1)[:-1, :-1].cumsum(0).cumsum(1)
-    return padded[WINDOW:, WINDOW:] - padded[:-WINDOW, WINDOW:] - padded[WINDOW:, :-WINDOW] + padded[:-WINDOW, :-WINDOW]
-
-
 def trust(color: np.ndarray, smooth: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """The part of a denoised picture in the mixture with the picture itself that has the least expected square error,
-    around each pixel, by the picture's standard error: where the two differ by more than that, the denoiser is more
-    likely wrong (after James and Stein 1961). Height, width, 1."""
-    differ = box(((color - smooth) ** 2).sum(-1))
-    return np.clip(box((noise**2).sum(-1)) / np.maximum(differ, 1e-30), 0, 1)[..., None].astype(np.float32)
+    """The part of a denoised picture in its mixture with the picture itself, by pixel: all of it where the two differ
+    by BELIEVED of the picture's standard errors at most, and less by the square of the difference beyond, where it is
+    more likely the denoiser that is wrong (after James and Stein 1961). Height, width, 1."""
+    differ = ((color - smooth).astype(np.float64) ** 2).sum(-1)
+    likely = BELIEVED**2 * (noise.astype(np.float64) ** 2).sum(-1)
+    return np.clip(likely / np.maximum(differ, 1e-300), 0, 1)[..., None].astype(np.float32)
 
 
 def denoise(channels: Channels, by_layer: bool, keep: bool) -> Channels:

@@ -16,25 +16,25 @@ class Materials:
     def __init__(self, images: Images):
         self.images = images
         self.found: dict[str, dict] = {}
-        self.names: dict[int, str] = {}
+        self.names: dict[tuple[int, bool], str] = {}
+        self.upward = True
 
-    def name(self, node: Node) -> str | None:
-        """That of a BSDF's material; none for what nobody sees."""
-        if node.index not in self.names:
+    def name(self, node: Node, upward: bool = True) -> str | None:
+        """That of a BSDF's material; none for what nobody sees. `upward` says whether the green of normal maps goes up
+        in their images, which hangs on the shape."""
+        self.upward = upward or not relief(node)
+        key = node.index, self.upward
+        if key not in self.names:
             material = self.read(node)
             if material is None:
                 return None
-            name = node.props.id() or f"{node.plugin} {len(self.found) + 1}"
+            name = node.props.id()
+            name = name if name and "__" not in name else f"{node.plugin} {len(self.found) + 1}"
             while name in self.found:
                 name += "'"
             self.found[name] = material
-            self.names[node.index] = name
-        return self.names[node.index]
-
-    def textured(self, node: Node) -> bool:
-        """Whether a material looks at texture coordinates."""
-        material = self.found.get(self.names.get(node.index, ""), {})
-        return any(isinstance(value, dict) and "texture" in value for value in material.values())
+            self.names[key] = name
+        return self.names[key]
 
     def value(self, node: Node, name: str, default: float, change: Change | None = None, grey: bool = False):
         """A colour, a number or a texture."""
@@ -87,11 +87,14 @@ class Materials:
 
     def read_normalmap(self, node: Node) -> dict | None:
         material = self.nested(node)
-        texture = next((child for child in node.children(TEXTURE)), None)
+        texture = next(iter(node.children(TEXTURE)), None)
         if material is None or texture is None or material["type"] == "mirror":
             return material
-        found = self.images.texture(texture, None, grey=False)
-        return material | ({"normalMap": found | {"space": "linear"}} if isinstance(found, dict) else {})
+        change = None if self.upward else lambda values: values * (1, -1, 1) + (0, 1, 0)
+        if change is None and not texture.get("raw", False):
+            change = np.asarray
+        found = self.images.texture(texture, change, grey=False)
+        return material | ({"normalMap": found} if isinstance(found, dict) else {})
 
     def read_bumpmap(self, node: Node) -> dict | None:
         node.lose("bump maps (a normal map does the same, if you make one)")
@@ -117,23 +120,28 @@ class Materials:
 
     def read_plastic(self, node: Node) -> dict:
         eta = ior_of(node, 1.49)
-        return {"type": "plastic", "albedo": self.base(node, eta), "ior": number(eta), "roughness": 0}
+        return {"type": "plastic", "ior": number(eta), "roughness": 0,
+                "albedo": self.base(node, 1, mi.fresnel_diffuse_reflectance(1 / eta))}
 
     def read_roughplastic(self, node: Node) -> dict:
-        return self.read_plastic(node) | {"roughness": self.roughness(node)}
+        return {"type": "plastic", "ior": number(ior_of(node, 1.49)), "roughness": self.roughness(node),
+                "albedo": self.base(node, *rough_base(node))}
 
     def read_pplastic(self, node: Node) -> dict:
-        return self.read_roughplastic(node)
+        node.lose("polarizing plastics; plain ones stand for them")
+        return self.read_plastic(node) | {"roughness": self.roughness(node)}
 
-    def base(self, node: Node, eta: float):
-        """What lies under a coat. Mitsuba's linear base is vkpm's separable one; where light is coloured each time that
-        it comes back from the coat ("nonlinear"), the albedo takes that in."""
+    def base(self, node: Node, factor: float, inside: float):
+        """The albedo below a coat. Mitsuba's base is separable as vkpm's is, but for a factor; where light is coloured
+        each time that it comes back from the coat, which reflects a part of it `inside` ("nonlinear"), the albedo
+        takes that in."""
         if "specular_reflectance" in node and self.value(node, "specular_reflectance", 1) != 1:
             node.lose("specular_reflectance of plastics")
-        if not node.get("nonlinear", False):
-            return self.value(node, "diffuse_reflectance", 0.5)
-        inside = mi.fresnel_diffuse_reflectance(1 / eta)
-        return self.value(node, "diffuse_reflectance", 0.5, lambda rho: rho * (1 - inside) / (1 - rho * inside))
+        if node.get("nonlinear", False):
+            return self.value(node, "diffuse_reflectance", 0.5,
+                              lambda rho: factor * rho * (1 - inside) / (1 - rho * inside))
+        return self.value(node, "diffuse_reflectance", 0.5, lambda rho: factor * rho) if factor != 1 else self.value(
+            node, "diffuse_reflectance", 0.5)
 
     def read_conductor(self, node: Node) -> dict:
         eta, k = (np.broadcast_to(node.value(name, 0), 3).astype(float) for name in ("eta", "k"))
@@ -182,6 +190,46 @@ class Materials:
             return material | {"ior": number(node.get("eta"))}
         root = (0.08 * float(node.value("specular", 0.5))) ** 0.5  # of the reflectance at normal incidence
         return material | {"ior": number((1 + root) / (1 - root))}
+
+
+def relief(node: Node) -> bool:
+    """Whether a BSDF has a normal map."""
+    return node.plugin == "normalmap" or any(relief(child) for child in node.children(BSDF))
+
+
+def rough_base(node: Node) -> tuple[float, float]:
+    """What remains of a white base below a rough coat, in parts of what vkpm gives back, and what the coat reflects
+    inside. Both are measured: rough coats of Mitsuba lose light."""
+    shared = {"type": "roughplastic", "alpha": float(node.get("alpha", 0.1)), "nonlinear": True,
+              "int_ior": ior_of(node, 1.49), "ext_ior": 1.0, "distribution": node.get("distribution", "beckmann")}
+    black, grey, white = (mi.load_dict(shared | {"diffuse_reflectance": {"type": "uniform", "value": value}})
+                          for value in (0.0, 0.5, 1.0))
+    context, point = mi.BSDFContext(), mi.SurfaceInteraction3f()
+
+    def scattered(bsdf, mu: float, mu_out: float) -> float:
+        """f at two cosines."""
+        directions = [mi.Vector3f((1 - x * x) ** 0.5 * side, 0, x) for x, side in ((mu, 1), (mu_out, 1))]
+        point.wi = directions[0]
+        return float(bsdf.eval(context, point, directions[1])[0]) / mu_out
+
+    def below(bsdf, mu: float, mu_out: float) -> float:
+        """The base's part of it."""
+        return scattered(bsdf, mu, mu_out) - scattered(black, mu, mu_out)
+
+    def coat(mu: float) -> float:
+        """What the coat reflects."""
+        point.wi = mi.Vector3f((1 - mu * mu) ** 0.5, 0, mu)
+        places = (np.arange(16) + 0.5) / 16
+        return float(np.mean([black.sample(context, point, 0.5, (u, v))[1][0] for u in places for v in places]))
+
+    cosines, weights = np.polynomial.legendre.leggauss(12)
+    cosines, weights = (cosines + 1) / 2, weights / 2
+    one = 0.5
+    along = sum(weight * mu * below(white, mu, one) for mu, weight in zip(cosines, weights, strict=True))
+    base = 4 * np.pi * along**2 / below(white, one, one)
+    rest = 1 - 2 * sum(weight * mu * coat(mu) for mu, weight in zip(cosines, weights, strict=True))
+    ratio = below(white, one, one) / below(grey, one, one)
+    return float(base / rest), float((ratio - 2) / (ratio - 1))
 
 
 def named_ior(value) -> float:

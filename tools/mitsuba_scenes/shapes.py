@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from mitsuba_scenes.images import Images
-from mitsuba_scenes.materials import Materials
+from mitsuba_scenes.materials import Materials, relief
 from mitsuba_scenes.source import Failure, Matrix, Node, colour, mi, number, numbers
 
 SEGMENTS = 128  # around discs, cylinders and spheres that become meshes
@@ -33,6 +33,14 @@ class Mesh:
     def turned(self) -> "Mesh":
         """The mesh inside out."""
         return Mesh(self.points, self.faces[:, ::-1], None if self.normals is None else -self.normals, self.uv)
+
+    def right_handed(self) -> bool:
+        """Whether u, v and the outside are as x, y and z; so is what has no coordinates."""
+        if self.uv is None:
+            return True
+        a, b, c = (self.uv[self.faces[:, i]] for i in range(3))
+        (x, y), (z, w) = (b - a).T, (c - a).T
+        return float(np.sum(x * w - y * z)) >= 0
 
     def write(self, path: Path) -> None:
         """Writes a PLY file, texture coordinates as vkpm has them, which go up."""
@@ -130,7 +138,7 @@ class Shapes:
                 emitter.value("radiance", 1) if child is None else child.object.eval(mi.SurfaceInteraction3f())))
         bsdfs = node.children(mi.ObjectType.BSDF)
         if bsdfs:
-            name = self.materials.name(bsdfs[0])
+            name = self.materials.name(bsdfs[0], not relief(bsdfs[0]) or not self.evaluated(node).right_handed())
             if name is not None:
                 surface["material"] = name
             if bsdfs[0].plugin in ONE_SIDED and node.plugin not in CLOSED and "emission" not in surface:
@@ -144,13 +152,14 @@ class Shapes:
         self.materials.found.setdefault("grey", {"type": "diffuse", "albedo": 0.5})
         return "grey"
 
-    def textured(self, node: Node, surface: dict) -> bool:
-        return isinstance(surface.get("emission"), dict) or any(
-            self.materials.textured(bsdf) for bsdf in node.children(mi.ObjectType.BSDF))
+    def textured(self, surface: dict) -> bool:
+        """Whether texture coordinates count."""
+        values = [surface.get("emission"), *self.materials.found.get(surface.get("material"), {}).values()]
+        return any(isinstance(value, dict) and "texture" in value for value in values)
 
     def whole(self, node: Node, surface: dict, instance: Matrix | None) -> dict | None:
         """A sphere or rectangle of vkpm, where one is the same."""
-        if node.plugin not in ("sphere", "rectangle") or self.textured(node, surface):
+        if node.plugin not in ("sphere", "rectangle") or self.textured(surface):
             return None
         matrix = np.array(node.values["to_world"].matrix, float)
         matrix = matrix if instance is None else instance @ matrix
