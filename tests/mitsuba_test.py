@@ -17,7 +17,7 @@ import OpenEXR
 SKIPPED = 77
 SIZE = 96, 72
 REGIONS = 4, 3
-MITSUBA_SAMPLES, VKPM_PASSES = 256, 128
+SAMPLES = 64, 32  # of Mitsuba by pixel, and passes; four times as many for the table
 MOST = 0.02  # difference of means, beside four standard errors
 
 if importlib.util.find_spec("mitsuba") is None:
@@ -42,7 +42,7 @@ def sensor(kind: str = "perspective", more: str = "") -> str:
   <transform name="to_world"><lookat origin="0, 2.2, 5.5" target="0, 0.7, 0" up="0, 1, 0"/></transform>
   <film type="hdrfilm"><integer name="width" value="{SIZE[0]}"/><integer name="height" value="{SIZE[1]}"/>
     <rfilter type="box"/></film>
-  <sampler type="independent"><integer name="sample_count" value="{MITSUBA_SAMPLES}"/></sampler></sensor>"""
+  <sampler type="independent"><integer name="sample_count" value="{SAMPLES[0]}"/></sampler></sensor>"""
 
 
 def scene(*parts: str, view: str | None = None) -> str:
@@ -285,16 +285,16 @@ def regions(values: np.ndarray) -> np.ndarray:
     return values.reshape(rows, height // rows, columns, width // columns, 3).mean((1, 3))
 
 
-def pictures(vkpm: str, name: str, folder: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def pictures(vkpm: str, name: str, folder: Path, times: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A scene by Mitsuba, by vkpm, and the standard error of the latter."""
     file = folder / f"{name}.xml"
     file.write_text(SCENES[name](folder))
     said = convert(file, "-o", folder / f"{name}.json")
     assert "lost" not in said, said
     output = folder / f"{name}.exr"
-    words = [vkpm, "--scene", folder / f"{name}.json", "--passes", VKPM_PASSES, "-o", output, "--quiet", "--no-resume"]
+    words = [vkpm, "--scene", folder / f"{name}.json", "--passes", times * SAMPLES[1], "-o", output, "--quiet", "--no-resume"]
     subprocess.run([*map(str, words)], check=True)
-    truth = np.array(mi.render(mi.load_file(str(file))))[..., :3].astype(float)
+    truth = np.array(mi.render(mi.load_file(str(file)), spp=times * SAMPLES[0]))[..., :3].astype(float)
     return truth, read(output), read(output, "noise.")
 
 
@@ -330,7 +330,7 @@ def test_lost(folder: Path) -> None:
     file, output = folder / "lost.xml", folder / "lost.json"
     file.write_text(scene(FLOOR, SKY, *balls(hair, hair, '<bsdf type="roughconductor"/>')))
     said = convert(file, "-o", output)
-    assert said.count("BSDFs of type hair") == 1 and "lost.xml (line 11, col" in said, said
+    assert said.count("BSDFs of type hair") == 1 and "lost.xml (line 10, col" in said, said
     assert "Beckmann" in said, said
     written = json.loads(output.read_text())
     assert "BSDFs of type hair" in written["about"] and "Beckmann" in written["about"]
@@ -344,13 +344,11 @@ def test_refused(folder: Path) -> None:
     for text, expected in (
         ('<scene version="3.0.0"><shape type="cube"></scene>', "broken.xml"),
         (scene('<shape type="obj"><string name="filename" value="none.obj"/></shape>'), "none.obj"),
-        (scene(FLOOR, SKY, view=""), "the scene has no sensor"),
+        (scene(FLOOR, SKY, view=" "), "the scene has no sensor"),
         (scene(FLOOR, view='<sensor type="orthographic"/>'), "allowed: perspective or thinlens"),
         (scene(SKY), "no shape is left"),
     ):
-        if not text:
-            continue
-        broken.write_text(text.replace(sensor(), "") if "no sensor" in expected else text)
+        broken.write_text(text)
         said = convert(broken, "-o", output, code=2)
         assert expected in said, (expected, said)
         assert not output.exists() and not (folder / "out-files").exists()
@@ -364,7 +362,7 @@ def print_table(vkpm: str, names: list[str]) -> None:
     folder.mkdir(exist_ok=True)
     print("| scene | mean | worst of 12 regions | four standard errors there |\n|---|---|---|---|")
     for name in names or SCENES:
-        truth, found, noise = pictures(vkpm, name, folder)
+        truth, found, noise = pictures(vkpm, name, folder, 4)
         differ, errors = differences(truth, found, noise)
         cells = f"{found.mean() / truth.mean() - 1:+.2%} | {differ.max():.2%} | {errors.flat[differ.argmax()]:.2%}"
         print(f"| {name} | {cells.replace('%', ' %')} |", flush=True)

@@ -87,9 +87,10 @@ class Node:
 
     @cached_property
     def values(self) -> dict:
-        """The parameters of the object."""
+        """The parameters of the object, but for those of a shape's material and light."""
         parameters = mi.traverse(self.object)
-        return {name: parameters[name] for name in parameters.keys()}  # noqa: SIM118
+        names = [name for name in parameters.keys() if not name.startswith(("bsdf.", "emitter."))]  # noqa: SIM118
+        return {name: parameters[name] for name in names}
 
     def value(self, name: str, default):
         """A colour or number, as the object has it."""
