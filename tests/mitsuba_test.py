@@ -292,7 +292,8 @@ def pictures(vkpm: str, name: str, folder: Path, times: int = 1) -> tuple[np.nda
     said = convert(file, "-o", folder / f"{name}.json")
     assert "lost" not in said, said
     output = folder / f"{name}.exr"
-    words = [vkpm, "--scene", folder / f"{name}.json", "--passes", times * SAMPLES[1], "-o", output, "--quiet", "--no-resume"]
+    words = [vkpm, "--scene", folder / f"{name}.json", "--passes", times * SAMPLES[1], "-o", output, "--quiet",
+             "--no-resume"]
     subprocess.run([*map(str, words)], check=True)
     truth = np.array(mi.render(mi.load_file(str(file)), spp=times * SAMPLES[0]))[..., :3].astype(float)
     return truth, read(output), read(output, "noise.")
@@ -352,6 +353,10 @@ def test_refused(folder: Path) -> None:
         said = convert(broken, "-o", output, code=2)
         assert expected in said, (expected, said)
         assert not output.exists() and not (folder / "out-files").exists()
+    folder.joinpath("mine-files").mkdir()
+    folder.joinpath("mine-files/letter.txt").touch()
+    assert "holds other files" in convert(broken, "-o", folder / "mine.json", code=2)
+    assert folder.joinpath("mine-files/letter.txt").exists()
     assert "no such file" in convert(folder / "none.xml", "-o", output, code=2)
     assert "ends in .json" in convert(broken, "-o", folder / "out.xml", code=2)
 

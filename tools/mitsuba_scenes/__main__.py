@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -99,16 +100,18 @@ def run(args: argparse.Namespace) -> None:
     if not folder.is_dir():
         raise Failure(f"--output: {folder} is no folder; make it, or choose another")
     stem = args.output.stem
+    files = folder / f"{stem}-files"
+    if files.exists() and not all(re.fullmatch(r"(image|mesh)\d+\.\w+", file.name) for file in files.iterdir()):
+        raise Failure(f"--output: {files} holds other files than those of a scene; move it, or choose another name")
     source = Source(args.scene, dict(args.define))
     with tempfile.TemporaryDirectory(dir=folder, prefix=f".{stem}-") as beside:
         scene = converted(source, Images(Path(beside), stem), args.scene.name)
         for what, place in source.losses.items():
             say(f"{place}: lost: {what}")
         Path(beside, args.output.name).write_text(text_of(scene))
-        files = f"{stem}-files"
-        shutil.rmtree(folder / files, ignore_errors=True)
-        if Path(beside, files).is_dir():
-            os.replace(Path(beside, files), folder / files)
+        shutil.rmtree(files, ignore_errors=True)
+        if Path(beside, files.name).is_dir():
+            os.replace(Path(beside, files.name), files)
         os.replace(Path(beside, args.output.name), args.output)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from mitsuba_scenes.source import Failure, Node, colour, mi, number, numbers
 
 READ = (".png", ".jpg", ".jpeg", ".exr", ".hdr")  # formats of vkpm
+SPECTRA = ("uniform", "srgb", "regular", "irregular", "d65", "blackbody", "rawconstant")  # the same at all places
 Change = Callable[[np.ndarray], np.ndarray]  # of linear values
 
 
@@ -67,14 +68,14 @@ class Images:
         return self.copies[file]
 
     def texture(self, node: Node, change: Change | None, grey: bool) -> dict | float | list:
-        """A texture of vkpm; its mean if vkpm has no equal. `change` is applied to its linear values."""
+        """A texture of vkpm; 0.5 if vkpm has no equal. `change` is applied to its linear values."""
         made = {"bitmap": self.bitmap, "checkerboard": self.checkerboard}.get(node.plugin)
         if made is None:
-            if node.object.is_spatially_varying():
-                node.lose(f"textures of type {node.plugin}; their mean stays")
-                values = np.full(3, node.object.mean())
+            if node.plugin not in SPECTRA:
+                node.lose(f"textures of type {node.plugin}; 0.5 stands for them")
+                values = np.full(3, 0.5)
             else:
-                values = np.array(node.object.eval(mi.SurfaceInteraction3f()))
+                values = node.spectrum()
             values = change(values) if change else values
             return number(np.mean(values)) if grey else colour(values)
         result = made(node, change, grey)
@@ -117,11 +118,11 @@ class Images:
         fields = []
         for name, default in (("color0", 0.4), ("color1", 0.2)):
             child = node.child(name)
-            if child is not None and child.object.is_spatially_varying():
-                child.lose("textures within checkerboards; their mean stays")
-                values = np.full(3, child.object.mean())
+            if child is not None and child.plugin not in SPECTRA:
+                child.lose("textures within checkerboards; 0.5 stands for them")
+                values = np.full(3, 0.5)
             elif child is not None:
-                values = np.array(child.object.eval(mi.SurfaceInteraction3f()))
+                values = child.spectrum()
             else:
                 values = np.broadcast_to(node.value(name, default), 3)
             fields.append(change(values) if change else values)

@@ -60,7 +60,7 @@ class Lights:
 
     def spectrum(self, node: Node, name: str) -> list | float:
         child = node.child(name)
-        return colour(node.value(name, 1) if child is None else child.object.eval(mi.SurfaceInteraction3f()))
+        return colour(node.value(name, 1) if child is None else child.spectrum())
 
     def add_constant(self, node: Node) -> None:
         self.environment = {"radiance": self.spectrum(node, "radiance")}

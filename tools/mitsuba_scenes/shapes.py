@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mitsuba_scenes.images import Images
+from mitsuba_scenes.images import SPECTRA, Images
 from mitsuba_scenes.materials import Materials, relief
 from mitsuba_scenes.source import Failure, Matrix, Node, colour, mi, number, numbers
 
@@ -133,9 +133,9 @@ class Shapes:
         surface = {}
         for emitter in node.children(mi.ObjectType.Emitter):
             child = emitter.child("radiance")
-            varies = child is not None and child.object.is_spatially_varying()
+            varies = child is not None and child.plugin not in SPECTRA
             surface["emission"] = (self.images.texture(child, None, grey=False) if varies else colour(
-                emitter.value("radiance", 1) if child is None else child.object.eval(mi.SurfaceInteraction3f())))
+                emitter.value("radiance", 1) if child is None else child.spectrum()))
         bsdfs = node.children(mi.ObjectType.BSDF)
         if bsdfs:
             name = self.materials.name(bsdfs[0], not relief(bsdfs[0]) or not self.evaluated(node).right_handed())

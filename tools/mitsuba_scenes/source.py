@@ -96,6 +96,14 @@ class Node:
         """A colour or number, as the object has it."""
         return next((self.values[key] for key in (f"{name}.value", name) if key in self.values), default)
 
+    def spectrum(self) -> np.ndarray:
+        """The linear colour of a spectrum, or of a texture that is the same at all places."""
+        try:
+            return np.broadcast_to(np.array(self.object.eval(mi.SurfaceInteraction3f()), float), 3)
+        except RuntimeError:  # as black bodies, which Mitsuba has for wavelengths alone
+            self.lose(f"spectra of type {self.plugin}; 1 stands for them")
+            return np.ones(3)
+
     @property
     def place(self) -> str:
         return mi.parser.file_location(self.source.state, self.source.state.nodes[self.index])
@@ -103,6 +111,20 @@ class Node:
     def lose(self, what: str) -> None:
         """Notes what has no equal."""
         self.source.losses.setdefault(what, self.place)
+
+
+def plain(node) -> "mi.Properties":
+    """The properties of a node, but for samplers, films and their filters those of common ones: what kind they are does
+    not count, and old scenes have kinds that are no more."""
+    kinds = {mi.ObjectType.Sampler: "independent", mi.ObjectType.ReconstructionFilter: "box",
+             mi.ObjectType.Film: "hdrfilm"}
+    if node.type not in kinds:
+        return node.props
+    common = mi.Properties(kinds[node.type])
+    for name in ("width", "height", "crop_width", "crop_height", "crop_offset_x", "crop_offset_y"):
+        if node.type == mi.ObjectType.Film and node.props.has_property(name):
+            common[name] = node.props[name]
+    return common
 
 
 class Source:
@@ -120,6 +142,8 @@ class Source:
             mi.parser.transform_resolve(self.config, self.state)
         except RuntimeError as error:
             raise Failure(f"{path}: {str(error).strip()}") from error
+        for node in self.state.nodes:
+            node.props = plain(node)
         self.losses: dict[str, str] = {}
         self.nodes: dict[int, Node] = {}
 
