@@ -180,8 +180,10 @@ def metals(folder: Path) -> str:
 def glass(folder: Path) -> str:
     pane = shape("rectangle", '<bsdf type="thindielectric"/>', '<scale value="0.7"/><rotate y="1" angle="30"/>'
                  '<translate x="0.2" y="0.8" z="1.2"/>')
-    return scene(FLOOR, SKY, pane, *balls(
-        '<bsdf type="dielectric"><string name="int_ior" value="bk7"/></bsdf>', diffuse("0.8, 0.3, 0.2"),
+    clear = '<bsdf type="dielectric"><string name="int_ior" value="{}"/><string name="ext_ior" value="{}"/></bsdf>'
+    within = shape("sphere", clear.format("water", "bk7"), '<scale value="0.4"/><translate y="0.75"/>')
+    return scene(FLOOR, SKY, pane, within, *balls(
+        '<bsdf type="dielectric"><string name="int_ior" value="bk7"/></bsdf>', clear.format("bk7", "air"),
         '<bsdf type="roughdielectric"><float name="int_ior" value="1.5"/><string name="distribution" value="ggx"/>'
         '<float name="alpha" value="0.2"/></bsdf>'))
 

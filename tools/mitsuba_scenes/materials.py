@@ -202,6 +202,7 @@ def rough_base(node: Node) -> tuple[float, float]:
     inside. Both are measured: rough coats of Mitsuba lose light."""
     shared = {"type": "roughplastic", "alpha": float(node.get("alpha", 0.1)), "nonlinear": True,
               "int_ior": ior_of(node, 1.49), "ext_ior": 1.0, "distribution": node.get("distribution", "beckmann")}
+    ggx = mi.load_dict(shared | {"distribution": "ggx", "diffuse_reflectance": {"type": "uniform", "value": 0.0}})
     black, grey, white = (mi.load_dict(shared | {"diffuse_reflectance": {"type": "uniform", "value": value}})
                           for value in (0.0, 0.5, 1.0))
     context, point = mi.BSDFContext(), mi.SurfaceInteraction3f()
@@ -217,10 +218,10 @@ def rough_base(node: Node) -> tuple[float, float]:
         return scattered(bsdf, mu, mu_out) - scattered(black, mu, mu_out)
 
     def coat(mu: float) -> float:
-        """What the coat reflects."""
+        """What vkpm's coat reflects."""
         point.wi = mi.Vector3f((1 - mu * mu) ** 0.5, 0, mu)
         places = (np.arange(16) + 0.5) / 16
-        return float(np.mean([black.sample(context, point, 0.5, (u, v))[1][0] for u in places for v in places]))
+        return float(np.mean([ggx.sample(context, point, 0.5, (u, v))[1][0] for u in places for v in places]))
 
     cosines, weights = np.polynomial.legendre.leggauss(12)
     cosines, weights = (cosines + 1) / 2, weights / 2
