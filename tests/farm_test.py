@@ -15,6 +15,8 @@ from distributed import Client
 from waiting import eventually
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from farming.parts import Scene  # noqa: E402
 SCENE = ROOT / "scenes/glass.json"
 OPTIONS = ["--scene", str(SCENE), "--passes", "24", "--size", "64x48", "--photons", "2000", "--quiet"]
 LOOPBACK = ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]
@@ -102,11 +104,23 @@ def refuse_option(farm: list[str]) -> None:
         assert f"{option.split('=')[0]} is for one run of vkpm" in refused.stderr, (option, refused.stderr)
 
 
+def files_that_travel(folder: Path) -> None:
+    """Expects meshes, textures and skies among a scene's files, and what its models name."""
+    assert set(Scene(ROOT / "scenes/open_pool.json").files) >= {"open_pool.json", "water.obj", "evening.hdr"}
+    assert set(Scene(ROOT / "scenes/screen.json").files) >= {"screen.json", "wood.png", "leaf.png", "sunset.png"}
+    for name in ("a picture.png", "a.bin", "other.png"):
+        (folder / name).touch()
+    (folder / "m.gltf").write_text('{"buffers": [{"uri": "a.bin"}], "images": [{"uri": "a%20picture.png"}, {"uri": "data:,"}]}')
+    (folder / "scene.json").write_text('{"import": {"file": "m.gltf"}, "shapes": [{"emission": {"texture": "other.png"}}]}')
+    assert set(Scene(folder / "scene.json").files) == {"scene.json", "m.gltf", "a.bin", "a picture.png", "other.png"}
+
+
 def main() -> None:
     """Runs the test for the vkpm that is named by the first argument."""
     vkpm = sys.argv[1]
     with tempfile.TemporaryDirectory(prefix="vkpm-farm-test-") as name:
         folder = Path(name)
+        files_that_travel(folder)
         single, output = folder / "single.exr", folder / "farm.exr"
         subprocess.run([vkpm, *OPTIONS, "-o", single], check=True)
         with scheduler(folder) as address, worker(address, folder) as victim, worker(address, folder):

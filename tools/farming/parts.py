@@ -10,6 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 from urllib.parse import unquote
 
+MODELS = (".gltf", ".glb")  # which name files of their own
 DEFAULT_PASSES = 16  # of vkpm, where neither option nor scene say how many
 
 Span = tuple[int, int]  # passes from the first to before the second
@@ -32,19 +33,26 @@ def content_of(file: Path) -> dict:
     return content if isinstance(content, dict) else {}
 
 
+def names_in(content: object, keys: Collection[str]) -> list[str]:
+    """The texts under these keys, at any depth."""
+    if isinstance(content, list):
+        return [name for value in content for name in names_in(value, keys)]
+    if not isinstance(content, dict):
+        return []
+    own = [value for key, value in content.items() if key in keys and isinstance(value, str)]
+    return own + [name for value in content.values() for name in names_in(value, keys)]
+
+
 def named_files(file: Path) -> list[Path]:
-    """The files that a scene or a model names, and those that these name: meshes, imports and buffers."""
-    content = content_of(file)
-    lists = [content.get(key) for key in ("shapes", "buffers")]
-    values = [value for some in lists if isinstance(some, list) for value in some] + [content.get("import")]
-    names = [value.get("file", value.get("uri")) if isinstance(value, dict) else value for value in values]
+    """The files that a scene or a model names, and those that these name: meshes, imports, buffers and images."""
+    is_model = file.suffix.lower() in MODELS
     files = []
-    for name in names:
-        if isinstance(name, str) and not name.startswith("data:"):
-            named = Path(os.path.abspath(file.parent / unquote(name)))
-            models = named.suffix.lower() in (".gltf", ".glb") and file.suffix.lower() not in (".gltf", ".glb")
+    for name in names_in(content_of(file), {"uri"} if is_model else {"file", "import", "texture", "image"}):
+        if not name.startswith("data:"):
+            named = Path(os.path.abspath(file.parent / (unquote(name) if is_model else name)))
+            models = named.suffix.lower() in MODELS and not is_model
             files += [named, *(named_files(named) if models else [])]
-    return files
+    return [named for named in files if named.is_file()]
 
 
 class Scene:
