@@ -110,8 +110,10 @@ def files_that_travel(folder: Path) -> None:
     assert set(Scene(ROOT / "scenes/screen.json").files) >= {"screen.json", "wood.png", "leaf.png", "sunset.png"}
     for name in ("a picture.png", "a.bin", "other.png"):
         (folder / name).touch()
-    (folder / "m.gltf").write_text('{"buffers": [{"uri": "a.bin"}], "images": [{"uri": "a%20picture.png"}, {"uri": "data:,"}]}')
-    (folder / "scene.json").write_text('{"import": {"file": "m.gltf"}, "shapes": [{"emission": {"texture": "other.png"}}]}')
+    images = '[{"uri": "a%20picture.png"}, {"uri": "data:,"}]'
+    (folder / "m.gltf").write_text(f'{{"buffers": [{{"uri": "a.bin"}}], "images": {images}}}')
+    shapes = '[{"emission": {"texture": "other.png"}}]'
+    (folder / "scene.json").write_text(f'{{"import": {{"file": "m.gltf"}}, "shapes": {shapes}}}')
     assert set(Scene(folder / "scene.json").files) == {"scene.json", "m.gltf", "a.bin", "a picture.png", "other.png"}
 
 
