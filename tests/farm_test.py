@@ -17,6 +17,7 @@ from waiting import eventually
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from farming.parts import Scene  # noqa: E402
+
 SCENE = ROOT / "scenes/glass.json"
 OPTIONS = ["--scene", str(SCENE), "--passes", "24", "--size", "64x48", "--photons", "2000", "--quiet"]
 LOOPBACK = ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]

@@ -32,7 +32,7 @@ public:
                                                : "a primitive without positions is left out");
             return {};
         }
-        noteLosses(attributes);
+        noteLosses();
         positions.emplace(file, *position, "VEC3");
         if (normal) normals.emplace(file, *normal, "VEC3");
         if (normals && normals->count() != positions->count())
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    void noteLosses(Reader& attributes) {
+    void noteLosses() {
         if (place.find("targets")) losses.add(place, "morph targets are left out: the mesh has its own shape");
     }
 
