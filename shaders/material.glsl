@@ -6,7 +6,6 @@
 #include "bsdf_metal.glsl"
 #include "bsdf_mirror.glsl"
 #include "bsdf_plastic.glsl"
-#include "bsdf_polished.glsl"
 #include "bsdf_rough_glass.glsl"
 #include "bsdf_standard.glsl"
 #include "bsdf_thin_glass.glsl"

@@ -21,7 +21,6 @@ const uint LOBE_GLOSSY = 4u;  // G: about one direction, or W, where the lobe is
 #define DELTA_MATERIALS(X)                                                                                             \
     X(1, MIRROR, Mirror, LOBE_DELTA, "mirrors")                /* perfect, both sides */                               \
     X(2, GLASS, Glass, LOBE_DELTA, "glass")                    /* smooth, its inside against the normal */             \
-    X(3, POLISHED, Polished, LOBE_DELTA, "polished metal")     /* a mirror by Schlick, both sides */                   \
     X(8, THIN_GLASS, ThinGlass, LOBE_DELTA, "sheets of glass") /* smooth on both sides */
 
 // Those with a glossy lobe, which light samples meet too.

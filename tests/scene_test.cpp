@@ -5,6 +5,7 @@
 #include "scene/luminance.h"
 #include "scene/scene.h"
 #include "scene_text.h"
+#include <cstring>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -137,6 +138,9 @@ TEST(Scene, MaterialsKeepTheirKindAndTheRatioOfIndices) {
     EXPECT_EQ(materials[2].kind, MATERIAL_GLASS);
     expectNear(materials[2].color, {0.1f, 0.2f, 0.3f});
     EXPECT_EQ(materials[2].ior, 0.5f);
+    scene["materials"]["steel"] = {{"type", "metal"}, {"reflectance", {0.9, 0.8, 0.7}}, {"roughness", 0.03}};
+    const Material polished = loadJson(scene).materials[1];
+    EXPECT_EQ(std::memcmp(&polished, &materials[1], sizeof polished), 0);
 }
 
 TEST(Scene, TransformsAreAppliedInOrder) {

@@ -157,10 +157,10 @@ TEST(Textures, NumbersChooseRowsOfRoughness) {
         EXPECT_NEAR(m.alpha, value * value / 4, 1e-6);
         EXPECT_EQ(m.kind, MATERIAL_METAL);
     }
-    writeScene(greyPng(4), "smooth.png"); // so narrow everywhere that it is polished
+    writeScene(greyPng(4), "smooth.png"); // so narrow everywhere that it is a mirror
     scene =
         loadJson(sceneOfMaterial({{"type", "metal"}, {"preset", "gold"}, {"roughness", {{"texture", "smooth.png"}}}}));
-    EXPECT_EQ(scene.materials[scene.primitives[0].material].kind, MATERIAL_POLISHED);
+    EXPECT_EQ(scene.materials[scene.primitives[0].material].kind, MATERIAL_MIRROR);
 }
 
 const char* const quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.5 0\nvt 0.5 0.25\nvt 0\n";

@@ -84,10 +84,11 @@ Material readMetal(Reader& reader, Textures& textures, MaterialTextures& slots) 
     const float roughness = readRoughness(reader, 0, textures, slots.roughness);
     const auto multiscatter = reader.find("multiscatter");
     const bool scattersMore = !multiscatter || multiscatter->boolean();
-    const bool polished = roughness * roughness < LEAST_ALPHA;
-    if (polished) slots.roughness = NONE;
-    Material material{polished ? MATERIAL_POLISHED : MATERIAL_METAL, reflectance, 1};
-    if (polished) return material;
+    if (roughness * roughness < LEAST_ALPHA) {
+        slots.roughness = NONE;
+        return {MATERIAL_MIRROR, reflectance, 1};
+    }
+    Material material{MATERIAL_METAL, reflectance, 1};
     setRoughness(material, roughness, slots.roughness != NONE, textures,
                  [](double alpha) { return restRow(alpha, 1); });
     if (!scattersMore) material.rest = NONE;
@@ -160,8 +161,9 @@ Material readMaterial(Reader reader, Textures& textures) {
     std::vector<std::string_view> names;
     for (const MaterialType& type : materialTypes) names.push_back(type.name);
     MaterialTextures slots = noTextures;
-    Material material = materialTypes[reader.at("type").choice(names)].read(reader, textures, slots);
-    const auto normalMap = material.kind != MATERIAL_MIRROR ? reader.find("normalMap") : std::nullopt;
+    const MaterialType& type = materialTypes[reader.at("type").choice(names)];
+    Material material = type.read(reader, textures, slots);
+    const auto normalMap = type.read != readMirror ? reader.find("normalMap") : std::nullopt;
     if (normalMap) slots.normal = textures.normals(*normalMap);
     material.wide = material.alpha >= textures.scene.wideAlpha;
     readOpacity(reader, material, textures, slots);
