@@ -91,15 +91,77 @@ def goblet():
     return lathe(spline(GOBLET_OUTSIDE + RIM + GOBLET_INSIDE, 4))
 
 
-def wine(level=1.38, overlap=0.006):
-    """What the goblet holds: to the middle of its walls, so that both overlap, and flat at the top."""
-    inside = [(x + overlap * nx, y + overlap * ny, nx, ny) for x, y, nx, ny in spline(GOBLET_INSIDE[::-1], 6)]
+def wine(vessel, level, overlap, steps, segments):
+    """What a vessel holds: to the middle of its walls, so that both overlap, and flat at the top."""
+    inside = [(x + overlap * nx, y + overlap * ny, nx, ny) for x, y, nx, ny in spline(vessel[::-1], steps)]
     inside[0] = (0.0, *inside[0][1:])
     below = [point for point in inside if point[1] < level]
     last, above = below[-1], next(point for point in inside if point[1] >= level)
     part = (level - last[1]) / (above[1] - last[1])
     edge = last[0] + part * (above[0] - last[0])
-    return lathe([*below, (edge, level, last[2], last[3]), (edge, level, 0.0, 1.0), (0.0, level, 0.0, 1.0)])
+    return lathe([*below, (edge, level, last[2], last[3]), (edge, level, 0.0, 1.0), (0.0, level, 0.0, 1.0)], segments)
+
+
+# A bottle's outline, likewise: outside from the middle of the bottom to the lip, then inside.
+BOTTLE_OUTSIDE = [(0, 0.12), (0.2, 0.05), (0.3, 0), (0.36, 0.03), (0.37, 0.1), (0.37, 0.9), (0.37, 1.7), (0.355, 1.88)]
+BOTTLE_OUTSIDE += [(0.26, 2.1), (0.165, 2.3), (0.142, 2.5), (0.138, 2.85), (0.155, 2.87), (0.155, 2.97), (0.145, 3.0)]
+BOTTLE_INSIDE = [(0.112, 3.0), (0.105, 2.95), (0.11, 2.5), (0.135, 2.31), (0.23, 2.09), (0.32, 1.87), (0.337, 1.7)]
+BOTTLE_INSIDE += [(0.337, 0.9), (0.337, 0.15), (0.3, 0.06), (0.2, 0.09), (0, 0.16)]
+
+
+def bottle():
+    """A bottle for wine about the y axis, closed, its walls 0.033 thick, without normals."""
+    points, faces = lathe(spline(BOTTLE_OUTSIDE + BOTTLE_INSIDE, 2), 36)
+    return [(position, None) for position, _ in points], faces
+
+
+def label(radius=0.3715, low=0.45, high=1.45, angle=200, columns=32):
+    """What sticks on the bottle: a part of a cylinder about the y axis, its middle towards +z."""
+
+    def grid_point(i, j):
+        turn = math.radians(angle) * (i / columns - 0.5)
+        normal = (math.sin(turn), 0.0, math.cos(turn))
+        return (radius * normal[0], low + j * (high - low), radius * normal[2]), normal, (i / columns, float(j))
+
+    points, faces = grid(grid_point, columns, 1, closed=False)
+    return points, [face[::-1] for face in faces]
+
+
+def cube():
+    """A cube from 0 to 1 in all axes; each face has the whole of a texture."""
+    points, faces = [], []
+    for axis in range(3):
+        for side in (0.0, 1.0):
+            for u, v in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)):
+                corner = [0.0, 0.0, 0.0]
+                corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3] = side, u, v
+                points.append((tuple(corner), None, (u, v)))
+            face = tuple(range(len(points) - 3, len(points) + 1))
+            faces.append(face if side else face[::-1])
+    return points, faces
+
+
+def branch(leaves=90, length=1.6):
+    """Leaves along a twig that hangs about the x axis: squares with the whole of a texture, each turned its own way."""
+    points, faces = [], []
+    random = fractions(11)
+    for _ in range(leaves):
+        x, swing, reach = length * next(random), TURN * next(random), 0.02 + 0.2 * next(random)
+        stem = (x, reach * math.sin(swing) - 0.25 * x * x / length, 1.2 * reach * math.cos(swing))
+        tip = unit((0.9 * next(random) - 0.2, -0.25 - 0.6 * next(random), 1.6 * next(random) - 0.8))
+        across = unit(cross(tip, unit((next(random) - 0.5, 1.0, next(random) - 0.5))))
+        size = 0.09 + 0.05 * next(random)
+        for u, v in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)):
+            points.append((combine(combine(stem, across, 1.0, size * (u - 0.5)), tip, 1.0, size * v), None, (u, v)))
+        faces.append(tuple(range(len(points) - 3, len(points) + 1)))
+    return points, faces
+
+
+def fractions(state):
+    """Numbers in [0, 1), the same every time (Park and Miller 1988)."""
+    while True:
+        state = 48271 * state % 2147483647
+        yield state / 2147483647
 
 
 def spline(points, steps):
@@ -240,10 +302,16 @@ def number(value):
 
 def write(path, title, mesh):
     points, faces = mesh
+    has_normals, has_coordinates = points[0][1] is not None, len(points[0]) > 2
     lines = [f"# {title}", "# Written by tools/make_meshes.py; change it there."]
-    lines += ["v " + " ".join(map(number, position)) for position, _ in points]
-    lines += ["vn " + " ".join(map(number, normal)) for _, normal in points if normal]
-    lines += ["f " + " ".join(f"{i}//{i}" if points[i - 1][1] else f"{i}" for i in face) for face in faces]
+    lines += ["v " + " ".join(map(number, point[0])) for point in points]
+    lines += ["vt " + " ".join(map(number, point[2])) for point in points if has_coordinates]
+    lines += ["vn " + " ".join(map(number, point[1])) for point in points if has_normals]
+
+    def corner(i):
+        return f"{i}/{i if has_coordinates else ''}/{i if has_normals else ''}".rstrip("/")
+
+    lines += ["f " + " ".join(map(corner, face)) for face in faces]
     path.write_text("\n".join(lines) + "\n", newline="\n")
 
 
@@ -255,7 +323,13 @@ def main():
     write(folder / "knot.obj", "A tube around a trefoil knot, closed, normals outward.", knot())
     write(folder / "ring.obj", "A metal band with rounded rims, closed, normals outward.", ring())
     write(folder / "goblet.obj", "A glass for wine, closed, normals outward.", goblet())
-    write(folder / "wine.obj", "The wine in the goblet, closed, normals outward, overlapping its walls.", wine())
+    content = "closed, normals outward, overlapping its walls."
+    write(folder / "wine.obj", f"The wine in the goblet, {content}", wine(GOBLET_INSIDE, 1.38, 0.006, 6, 56))
+    write(folder / "bottle.obj", "A bottle, closed.", bottle())
+    write(folder / "bottle_wine.obj", f"The wine in the bottle, {content}", wine(BOTTLE_INSIDE, 1.95, 0.016, 2, 36))
+    write(folder / "label.obj", "The label of the bottle, normals outward.", label())
+    write(folder / "cube.obj", "A cube from 0 to 1.", cube())
+    write(folder / "branch.obj", "Leaves of a hanging twig, one square each.", branch())
     write(folder / "brilliant.obj", "A cut stone, closed, flat facets.", brilliant())
     write(folder / "water.obj", "A water surface with waves, normals upward.", water())
 
