@@ -23,10 +23,11 @@ import gloss
 import light
 import photons
 import shapes
+import world
 from lab import CASES, TRUTHS, Case, Lab, Refused, Verdict
 from studies.page import STYLE, developed, picture, table
 
-MODULES = (places, light, gloss, shapes, photons)  # each registers its cases
+MODULES = (places, light, gloss, world, shapes, photons)  # each registers its cases
 TIMES = 3  # as long as the tame sibling, at most
 NOISE = 0.15  # seconds that a render may take more for no reason: other work on the machine, kernels compiled anew
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 LIGHT = ("emission", "direct", "specular", "caustic", "indirect")  # the layers that sum to beauty
@@ -129,6 +130,16 @@ class Lab:
         lines += ["f " + " ".join(str(i + 1) for i in corners) for corners in triangles]
         self.meshes[name] = "\n".join(lines) + "\n"
         (self.folder / name).write_text(self.meshes[name])
+        return name
+
+    def image(self, name: str, texels: np.ndarray) -> str:
+        """Writes an image beside the scenes: an OpenEXR file of floats, or a PNG of bytes; height x width x 3."""
+        file = self.folder / name
+        if file.suffix == ".exr":
+            channels = {"RGB": OpenEXR.Channel(np.ascontiguousarray(texels))}
+            OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION}, channels).write(str(file))
+        else:
+            Image.fromarray(texels).save(file)
         return name
 
     def truth(self, scene: Scene, *options: str) -> Truth:
