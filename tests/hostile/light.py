@@ -250,22 +250,6 @@ def guide(lab: Lab) -> Verdict:
     return against_path(lab, scene, 0.02, passes="512")
 
 
-@case("matter", "glass in glass, touching at a point; two blocks that share a face",
-      "mean of the path tracer within 2 %")
-def touching(lab: Lab) -> Verdict:
-    x, y, z = GLASS_BALL
-    inner = sphere([x, y - 0.1, z], 0.25, material="inner")  # touches the outer ball from inside
-    def block(cx: float) -> list[dict]:
-        c, e = [cx, -0.99, -0.3], 0.25
-        faces = [(c, [e, 0, 0], [0, 0, e]), ([c[0], c[1] + e, c[2]], [0, 0, e], [e, 0, 0]), (c, [0, e, 0], [e, 0, 0]),
-                 ([c[0], c[1], c[2] + e], [e, 0, 0], [0, e, 0]), (c, [0, 0, e], [0, e, 0]),
-                 ([c[0] + e, c[1], c[2]], [0, e, 0], [0, 0, e])]
-        return [rectangle(*face, material="glass") for face in faces]
-    scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25),
-                 inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
-    return against_path(lab, scene, 0.02, passes="512")
-
-
 def plate_on_floor(gap: float, first: bool) -> Scene:
     """A glass plate over most of the box's floor, before or after all other shapes."""
     low, high, side = -1 + gap, -0.8, 0.9
