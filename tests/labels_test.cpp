@@ -10,7 +10,7 @@ namespace {
 const char* const layerNames[]{"emission", "direct", "specular", "caustic", "indirect", "beauty"};
 
 Scene room(float wideAlpha = WIDE_ALPHA) {
-    return loadScene(std::filesystem::path{__FILE__}.parent_path() / "data/kinds.json", wideAlpha);
+    return loadScene(std::filesystem::path{VKPM_TEST_DATA} / "kinds.json", wideAlpha);
 }
 
 /// Means of layers over the picture, the last of beauty, over independent seeds.
