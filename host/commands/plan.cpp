@@ -8,6 +8,7 @@
 #include "render/renderer.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
 
 namespace vkpm {
 
@@ -20,14 +21,17 @@ static Json featuresJson(const Features& features, const Settings& settings) {
     return list;
 }
 
+/// Kernels' sizes, counted side by side: the optimiser takes seconds for the large ones.
 static Json kernelsJson(const Gpu& gpu, const Features& features) {
-    Json list = Json::array();
-    for (const auto& [name, time] : gpu.times) {
-        if (!isKernel(name)) continue; // but a copy, or clearing
-        list.push_back({{"name", name},
-                        {"instructions", instructionCount(name, features)},
-                        {"general_instructions", instructionCount(name, Features{})}});
-    }
+    std::vector<std::string> names;
+    for (const auto& [name, time] : gpu.times)
+        if (isKernel(name)) names.push_back(name); // but a copy, or clearing
+    std::vector<Json> list(names.size());
+    tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
+        list[i] = {{"name", names[i]},
+                   {"instructions", instructionCount(names[i], features)},
+                   {"general_instructions", instructionCount(names[i], Features{})}};
+    });
     return list;
 }
 

@@ -6,8 +6,8 @@
 
 namespace vkpm {
 
-/// SPIR-V instructions in the functions of a kernel, after its constants are set and what they make unreachable is
-/// removed. A driver's compiler goes on from there. Throws std::runtime_error if the optimiser of SPIRV-Tools fails.
+/// SPIR-V instructions of a kernel, its functions inlined, after its constants are set and what they make unreachable
+/// is removed. A driver's compiler goes on from there. Throws std::runtime_error if the optimiser of SPIRV-Tools fails.
 std::size_t instructionCount(std::string_view kernel, const Features& features);
 
 } // namespace vkpm
