@@ -32,7 +32,7 @@ void chooseLights(Scene& scene, const std::filesystem::path& file) {
     const double total = luminance(flux);
     if (scene.lights.empty() || scene.flux == vec3{0})
         refuseFile(file, ": /shapes", "there is no light",
-                   "give a shape an \"emission\" above 0, or the scene \"lights\" or an \"environment\"");
+                   "give a shape an \"emission\", or the scene \"lights\" or an \"environment\", that is not black");
     if (!std::isfinite(scene.flux.x + scene.flux.y + scene.flux.z))
         refuseFile(file, ": /shapes", "the flux of all lights overflows", "lower \"emission\"");
 
