@@ -242,7 +242,8 @@ def leaves(folder: Path) -> str:
 
 
 def relief(folder: Path) -> str:
-    """Normal maps on shapes whose coordinates are laid both ways; green is another way in Mitsuba on some of them."""
+    """Normal maps on shapes whose coordinates are laid both ways; green is another way in Mitsuba on some of them. Bump
+    maps, one of them turned and stretched."""
     u, v = np.meshgrid(np.arange(64) / 64, np.arange(64) / 64)
     slopes = np.stack([0.1 * np.sin(12 * np.pi * u) + 0.1, 0.15 * np.cos(4 * np.pi * v) + 0.15, np.ones_like(u)], -1)
     normals = slopes / np.linalg.norm(slopes, axis=-1, keepdims=True)
@@ -250,9 +251,18 @@ def relief(folder: Path) -> str:
     mapped = (f'<bsdf type="twosided"><bsdf type="normalmap"><texture type="bitmap" name="normalmap">'
               f'<boolean name="raw" value="true"/><string name="filename" value="{name}"/></texture>'
               '<bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.6, 0.5"/></bsdf></bsdf></bsdf>')
+    waves = image(folder, "waves.exr", np.repeat((np.sin(6 * np.pi * u) * np.cos(2 * np.pi * v))[..., None], 3, -1))
+    bumps = ('<bsdf type="twosided"><bsdf type="bumpmap"><float name="scale" value="0.04"/><texture type="bitmap">'
+             f'<boolean name="raw" value="true"/><string name="filename" value="{waves}"/>{{}}</texture>'
+             '<bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.6, 0.7"/></bsdf></bsdf></bsdf>')
+    turned = '<transform name="to_uv"><scale x="1.5" y="2"/><rotate z="1" angle="30"/></transform>'
     return scene(
         FLOOR, LAMP, shape("rectangle", mapped, '<scale value="0.8"/><rotate x="1" angle="-40"/>'
                            '<translate x="-1.5" y="0.8"/>'),
+        shape("rectangle", bumps.format(""), '<scale value="0.5"/><rotate x="1" angle="-60"/>'
+              '<translate x="-0.6" y="0.4" z="1.6"/>'),
+        shape("rectangle", bumps.format(turned), '<scale x="0.8" y="0.4"/><rotate x="1" angle="-60"/>'
+              '<translate x="0.9" y="0.3" z="1.6"/>'),
         shape("sphere", mapped, '<rotate x="1" angle="-90"/><scale value="0.6"/><translate y="0.6"/>'),
         shape("cylinder", mapped, '<scale x="0.5" y="0.5"/><rotate x="1" angle="-90"/><translate x="1.6"/>'),
         shape("disk", diffuse("0.5, 0.5, 0.5"), '<scale value="0.5"/><rotate x="1" angle="-90"/>'

@@ -6,6 +6,7 @@ from mitsuba_scenes.images import Change, Images
 from mitsuba_scenes.source import Node, colour, mi, number
 
 BSDF, TEXTURE = mi.ObjectType.BSDF, mi.ObjectType.Texture
+LUMINANCE = np.float32((0.212671, 0.71516, 0.072169))
 AIR = 1.001  # what refracts less counts as nothing
 NAMED_IOR = {"vacuum": 1.0, "helium": 1.000036, "hydrogen": 1.000132, "air": 1.000277, "carbon dioxide": 1.00045}
 
@@ -16,14 +17,16 @@ class Materials:
     def __init__(self, images: Images):
         self.images = images
         self.found: dict[str, dict] = {}
-        self.names: dict[tuple[int, bool], str] = {}
+        self.names: dict[tuple[int, bool, tuple[float, float]], str] = {}
         self.upward = True
+        self.stretch: tuple[float, float] = 1, 1
 
-    def name(self, node: Node, upward: bool = True) -> str | None:
-        """That of a BSDF's material; none for what nobody sees. `upward` says whether the green of normal maps goes up
-        in their images, which hangs on the shape."""
+    def name(self, node: Node, upward: bool = True, stretch: tuple[float, float] = (1, 1)) -> str | None:
+        """That of a BSDF's material; none for what nobody sees. What hangs on the shape: `upward` says whether the
+        green of normal maps goes up in their images, `stretch` how long its steps of u and v are, for bump maps."""
         self.upward = upward or not relief(node)
-        key = node.index, self.upward
+        self.stretch = stretch if relief(node) else (1, 1)
+        key = node.index, self.upward, self.stretch
         if key not in self.names:
             material = self.read(node)
             if material is None:
@@ -97,8 +100,27 @@ class Materials:
         return material | ({"normalMap": found} if isinstance(found, dict) else {})
 
     def read_bumpmap(self, node: Node) -> dict | None:
-        node.lose("bump maps (a normal map does the same, if you make one)")
-        return self.nested(node)
+        """A normal map of the same slopes."""
+        material = self.nested(node)
+        texture = next(iter(node.children(TEXTURE)), None)
+        if material is None or texture is None or material["type"] == "mirror":
+            return material
+        if texture.plugin != "bitmap":
+            node.lose("bump maps that are no images")
+            return material
+        height = float(node.get("scale", 1))
+        turn = np.array(texture.values["to_uv"].matrix, float)[:2, :2]
+        edges = "wrap" if texture.get("wrap_mode", "repeat") == "repeat" else "edge"
+
+        def normals(values: np.ndarray) -> np.ndarray:
+            heights = height * np.pad(values @ LUMINANCE, 1, edges)
+            along = np.stack([(heights[1:-1, 2:] - heights[1:-1, :-2]) * values.shape[1] / 2,
+                              (heights[2:, 1:-1] - heights[:-2, 1:-1]) * values.shape[0] / 2], -1)
+            slopes = along @ turn / self.stretch  # v goes down, green up
+            found = np.dstack([-slopes[..., 0], slopes[..., 1], np.ones_like(slopes[..., 0])])
+            return 0.5 + 0.5 * found / np.linalg.norm(found, axis=-1, keepdims=True)
+
+        return material | {"normalMap": self.images.texture(texture, normals, grey=False)}
 
     def read_blendbsdf(self, node: Node) -> dict | None:
         weight = self.value(node, "weight", 0.5, grey=True)
@@ -193,8 +215,8 @@ class Materials:
 
 
 def relief(node: Node) -> bool:
-    """Whether a BSDF has a normal map."""
-    return node.plugin == "normalmap" or any(relief(child) for child in node.children(BSDF))
+    """Whether a BSDF has a normal map or a bump map."""
+    return node.plugin in ("normalmap", "bumpmap") or any(relief(child) for child in node.children(BSDF))
 
 
 def rough_base(node: Node) -> tuple[float, float]:

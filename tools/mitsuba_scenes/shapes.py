@@ -42,6 +42,21 @@ class Mesh:
         (x, y), (z, w) = (b - a).T, (c - a).T
         return float(np.sum(x * w - y * z)) >= 0
 
+    def stretch(self) -> tuple[float, float]:
+        """How far a step of one in u and one in v goes: the mean over the area."""
+        if self.uv is None:
+            return 1, 1
+        corners, places = self.points[self.faces], self.uv[self.faces]
+        edges = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], 1)
+        steps = np.stack([places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]], 1)
+        areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+        known = (np.abs(np.linalg.det(steps)) > 1e-12) & (areas > 0)
+        if not known.any():
+            return 1, 1
+        lengths = np.linalg.norm(np.linalg.solve(steps[known], edges[known]), axis=2)
+        u, v = np.average(lengths, axis=0, weights=areas[known])
+        return float(f"{u:.3g}"), float(f"{v:.3g}")
+
     def write(self, path: Path) -> None:
         """Writes a PLY file, texture coordinates as vkpm has them, which go up."""
         names, columns = ["x", "y", "z"], [self.points]
@@ -138,7 +153,9 @@ class Shapes:
                 emitter.value("radiance", 1) if child is None else child.spectrum()))
         bsdfs = node.children(mi.ObjectType.BSDF)
         if bsdfs:
-            name = self.materials.name(bsdfs[0], not relief(bsdfs[0]) or not self.evaluated(node).right_handed())
+            seen = self.evaluated(node) if relief(bsdfs[0]) else None
+            name = (self.materials.name(bsdfs[0], not seen.right_handed(), seen.stretch()) if seen
+                    else self.materials.name(bsdfs[0]))
             if name is not None:
                 surface["material"] = name
             if bsdfs[0].plugin in ONE_SIDED and node.plugin not in CLOSED and "emission" not in surface:
