@@ -15,7 +15,7 @@ float reflectionProbability(Material m, bool leaving, float cosine) {
     return isDispersive(m) ? meanReflectance(reflectances) : reflectances.x;
 }
 
-// Density of reflections alone; that of refractions is left out, as no light sample goes beyond the interface.
+// Density of reflections.
 float pdfRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     return reflectionProbability(m, leaving, dot(wo, h)) * visibleFacetPdf(m.alpha, n, h, wo);
@@ -25,6 +25,32 @@ float pdfRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
 vec3 evaluateRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     return roughFresnel(m, leaving, dot(wo, h)) * ggxValue(m.alpha, n, h, wo, wi);
+}
+
+// Refractions (Walter et al. 2007, eqs. 16, 17 and 21): what light that arrives from wi, beyond the interface, brings
+// as radiance towards wo, times the cosine of wi, and the density with which wo is refracted to wi. Where indices
+// differ by channel, each has another facet; then the density is left at 0.
+vec3 refractRoughGlass(Material m, bool leaving, vec3 n, vec3 wo, vec3 wi, out float pdf) {
+    float zo = dot(wo, n), zi = -dot(wi, n);
+    vec3 value = vec3(0.0);
+    pdf = 0.0;
+    if (!(zo > 0.0 && zi > 0.0)) return value;
+    bool apart = isDispersive(m);
+    for (uint i = 0u; i < (apart ? 3u : 1u); i++) {
+        float eta = apart ? ratiosBeyond(m, leaving)[i] : ratioBeyond(m, leaving);
+        vec3 h = normalize(wo + eta * wi);
+        if (dot(h, n) < 0.0) h = -h;
+        float o = dot(wo, h), beyond = -dot(wi, h);
+        if (!(o > 0.0 && beyond > 0.0)) continue;
+        float root = o - eta * beyond;
+        float density = (1.0 - roughFresnel(m, leaving, o)[i]) * visibleFacetPdf(m.alpha, n, h, wo) * 4.0 * o * eta *
+                        eta * beyond / (root * root);
+        float result = density * maskingOfOther(m.alpha, zo, zi) / (eta * eta);
+        if (apart) value[i] = result;
+        else value = vec3(result);
+        pdf = apart ? 0.0 : density;
+    }
+    return hasTint ? value * m.color : value;
 }
 
 // Reflection with the probability of Fresnel's reflectance at the facet, else refraction.
@@ -40,6 +66,7 @@ Scattering sampleRoughGlass(Material m, vec3 d, vec3 n, bool leaving, vec3 u) {
     float zi = reflects ? dot(event.direction, n) : -dot(event.direction, n);
     event.weight *= zi > 0.0 ? maskingOfOther(m.alpha, -dot(d, n), zi) : 0.0;
     if (reflects) event.pdf = pdfRoughGlass(m, leaving, n, -d, event.direction);
+    else refractRoughGlass(m, leaving, n, -d, event.direction, event.pdf);
     return event;
 }
 

@@ -5,6 +5,7 @@
 #include "feature_checks.glsl"
 #include "light_view.glsl"
 #include "material.glsl"
+#include "media.glsl"
 #include "offset.glsl"
 #include "shared_camera.h"
 #include "shared_scene.h"
@@ -48,9 +49,10 @@ ShadowRay sampleDirect(DeviceScene scene, vec3 origin, uint from, vec3 normal, v
                           weight, column, place, alsoFound);
 }
 
-// That of a glossy lobe, in place of the cosine law.
-ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material material, vec3 wo, vec3 weight, uint column,
-                             vec2 choice, vec2 place) {
+// That of a glossy lobe, in place of the cosine law. Where a light lies beyond a rough interface `at`, it is seen by
+// refraction, and `goesBeyond` is set.
+ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material material, Interface at, vec3 wo, vec3 weight,
+                             uint column, vec2 choice, vec2 place, out bool goesBeyond) {
     bool leaving = dot(wo, surface.normal) < 0.0;
     vec3 normal = leaving ? -surface.normal : surface.normal;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
@@ -58,15 +60,26 @@ ShadowRay sampleDirectGlossy(DeviceScene scene, Surface surface, Material materi
     Light light = LightPtr(scene.lights).at[chosen];
     requireLight(scene, light);
     LightView seen = viewLight(scene, light, origin, place);
+    goesBeyond = isRoughGlass(material) && dot(seen.w, normal) < 0.0;
+    if (goesBeyond) {
+        origin = hasTouching ? leaveInterface(scene, surface, at, -normal)
+                             : offsetPoint(surface.position, surface.magnitude, -normal);
+        seen = viewLight(scene, light, origin, place);
+    }
     vec3 w = seen.w;
     float inversePdf = seen.inversePdf / lightProbability(scene.directCdf, chosen);
     vec3 radiance = vec3(0.0);
-    if (dot(w, normal) > 0.0) {
-        float pdf;
-        vec3 value = evaluateGlossyAt(material, surface, -wo, w, pdf);
-        pdf = seen.isFound ? unpackPdf(packPdf(pdf)) : 0.0;
-        radiance = seen.radiance * value * weight * (inversePdf * lightSampleWeight(inversePdf, pdf));
+    float pdf = 0.0;
+    vec3 value = vec3(0.0);
+    if (goesBeyond) {
+        if (dot(w, normal) < 0.0) value = evaluateBeyond(material, surface, -wo, w, pdf);
+        if (pdf == 0.0 && seen.isFound) value = vec3(0.0); // rays have it all
+    } else if (dot(w, normal) > 0.0) {
+        value = evaluateGlossyAt(material, surface, -wo, w, pdf);
     }
+    pdf = seen.isFound ? unpackPdf(packPdf(pdf)) : 0.0;
+    if (maxComponent(value) > 0.0)
+        radiance = seen.radiance * value * weight * (inversePdf * lightSampleWeight(inversePdf, pdf));
     return ShadowRay(origin, surface.primitive, seen.target, radiance, column, seen.flags);
 }
 

@@ -194,6 +194,17 @@ vec3 evaluateGlossyAt(Material m, Surface s, vec3 d, vec3 w, out float pdf) {
     return kept * evaluateGlossy(m, leaving, n, -d, w);
 }
 
+bool isRoughGlass(Material m) {
+    return (materialKinds & 1u << MATERIAL_ROUGH_GLASS) != 0u && m.kind == MATERIAL_ROUGH_GLASS;
+}
+
+// The same where w is beyond the interface, but for mapped normals.
+vec3 evaluateBeyond(Material m, Surface s, vec3 d, vec3 w, out float pdf) {
+    pdf = 0.0;
+    if (!isRoughGlass(m) || isMapped(s)) return vec3(0.0);
+    return refractRoughGlass(m, dot(d, s.normal) > 0.0, scatteringNormal(s, d), -d, w, pdf);
+}
+
 // Probability with which a path at a surface with both lobes takes the glossy one: by what they reflect, and at least a
 // tenth of the paths for each.
 float glossyProbability(DeviceScene scene, Material m, float cosine) {
@@ -225,7 +236,8 @@ Scattering scatterMapped(Material m, Surface s, vec3 d, vec3 u, float accepted) 
     else event = scatterAbout(m, d, n, leaving, u.x);
     bool isOnItsSide = dot(event.direction, n) > 0.0 == dot(event.direction, geometric) > 0.0;
     float kept = behind || !isOnItsSide ? 0.0 : mappedAcceptance(s, d, event.direction);
-    if (accepted < kept) event.pdf *= kept;
+    if (accepted < kept)
+        event.pdf = dot(event.direction, n) > 0.0 ? event.pdf * kept : 0.0; // no light sample goes beyond
     else event = Scattering(-d, event.weight, n, 1.0, 0.0);
     return event;
 }

@@ -94,9 +94,9 @@ void addEmission(inout Vertex vertex, DeviceScene scene, Path path, Surface surf
         vertex.emission *= weightOfLightFound(scene, surface.light, light, path.origin, surface, pdfOf(path.flags));
 }
 
-// A light sample comes through what the path is in.
-void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, Path path) {
-    if (hasMedia) vertex.shadowRay.radiance *= shadowTransmittance(scene, path.media, vertex.shadowRay);
+// A light sample comes through the media that it is in.
+void attenuateShadowRay(inout Vertex vertex, DeviceScene scene, uint media) {
+    if (hasMedia) vertex.shadowRay.radiance *= shadowTransmittance(scene, media, vertex.shadowRay);
 }
 
 // The same of the lights that are endlessly far.
@@ -124,7 +124,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
                                     columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), false);
-    attenuateShadowRay(vertex, scene, path);
+    attenuateShadowRay(vertex, scene, path.media);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
@@ -170,7 +170,7 @@ void bounceDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface su
 
 // A light sample for the glossy lobe, unless the maps have that light.
 void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
-                            BounceSampler s) {
+                            Interface at, BounceSampler s) {
     uint diffuse = diffuseCount(path.flags);
     bool wide = isWideHere(material);
     if (activeIntegrator() == INTEGRATOR_PHOTON_MAP) return;
@@ -179,9 +179,10 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
     if (wide) layer = layerOf(path, diffuse == 0u ? LAYER_DIRECT : LAYER_INDIRECT);
     else layer = diffuse == 0u ? LAYER_SPECULAR : layerOf(path, diffuse == 1u ? LAYER_CAUSTIC : LAYER_INDIRECT);
     if (!hasLayer(layer)) return;
-    vertex.shadowRay = sampleDirectGlossy(scene, surface, material, -path.direction, path.throughput,
-                                          columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u));
-    attenuateShadowRay(vertex, scene, path);
+    bool goesBeyond;
+    vertex.shadowRay = sampleDirectGlossy(scene, surface, material, at, -path.direction, path.throughput,
+                                          columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), goesBeyond);
+    attenuateShadowRay(vertex, scene, goesBeyond ? at.media : path.media);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
@@ -192,7 +193,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     vec2 u = bounceSample(s, 0u);
     vec2 place = vec2(0.0);
     if (hasGlossy && isGlossy(material) && !isPassage(material)) {
-        requestGlossyShadowRay(vertex, scene, path, material, surface, s);
+        requestGlossyShadowRay(vertex, scene, path, material, surface, at, s);
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }

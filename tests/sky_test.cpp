@@ -338,6 +338,36 @@ TEST(Lamps, PhotonsBringWhatLightSamplesBring) {
     }
 }
 
+// A lamp without a size is seen through frosted glass by light samples alone, a small one by rays as well.
+TEST(Lamps, ShineThroughFrostedGlass) {
+    SKIP_UNLESS_DRAWN(0);
+    for (const double roughness : {0.45, 0.6}) { // labels G and W
+        const json glass{
+            {"type", "glass"}, {"ior", 1.5}, {"roughness", roughness}, {"abbe", roughness > 0.5 ? 15 : 100}};
+        const auto seen = [&](double radius) {
+            const json lamp{{"type", "point"}, {"position", {0.3, 0.2, -2}}, {"intensity", 1}, {"radius", radius}};
+            const Scene scene = loadJson(
+                {{"camera", {{"origin", {0, 0, 2}}, {"target", {0, 0, 0}}, {"fieldOfView", 36}}},
+                 {"film", {{"size", {24, 24}}}},
+                 {"lights", {lamp}},
+                 {"materials", {{"glass", glass}}},
+                 {"shapes", {{{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 0.5}, {"material", "glass"}}}}});
+            std::vector<double> means;
+            for (uint seed = 0; seed < 5; seed++) {
+                Settings settings = scene.settings;
+                settings.seed = seed;
+                means.push_back(layerMean(renderPasses(scene, settings, radius > 0 ? 48 : 16).pixels, LAYER_COUNT));
+            }
+            return estimate(means);
+        };
+        const Estimate point = seen(0), small = seen(0.04);
+        std::printf("frosted: point %.5f +- %.5f, small lamp %.5f +- %.5f\n", point.mean, point.error, small.mean,
+                    small.error);
+        EXPECT_LT(std::abs(zScore(point, small)), 4) << roughness;
+        EXPECT_LT(std::max(small.error, point.error), 0.02 * small.mean) << roughness;
+    }
+}
+
 // Balls of index 1 change nothing: what they take from direct light comes as their caustic.
 TEST(Lamps, CausticsAreWhatShadowsLack) {
     SKIP_UNLESS_DRAWN(0);
