@@ -82,6 +82,8 @@ struct Material {
     uint exterior;        // glass: what is outside of it, likewise; NONE: what a path was in
     vec2 spread;          // glass: what is added to `ior` for red and for blue
     uint wide;            // 1: the label of its glossy lobe is W
+    uint base;            // glass: 0, or 1 + index of the standard material that is there in its place by chance
+    float transmission;   // standard: 1 - this stands for what its dielectric has of that chance
 };
 BUFFER(Material)
 

@@ -56,6 +56,9 @@ struct MaterialTextures {
     uint roughness;
     uint opacity;
     uint normal; // its factor is (strength, strength, 1)
+    uint specular;
+    uint specularColor; // its factor has the reflectance by the index, too
+    uint transmission;
     uint colors; // 1: its color is multiplied by those of vertices
 };
 BUFFER(MaterialTextures)

@@ -127,7 +127,8 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape, bool mayLackMateria
 
 void ShapeLoader::requireEmitter(const Reader& place, const Surface& surface) const {
     if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material]))
-        place.fail("found emission on a material that is not diffuse", "only diffuse and standard shapes may emit");
+        place.fail("found emission on a material that is not diffuse",
+                   "only diffuse and standard shapes may emit, which transmit nothing");
     if (surface.radiance != vec3{0} && scene.materials[surface.material].seeThrough > 0)
         place.fail("found emission on a material that is not opaque", "only opaque shapes may emit");
 }
