@@ -169,6 +169,7 @@ struct DeviceScene {
     ADDRESS(uint) texels;               // tables, then words of images, see TexelImage
     ADDRESS(TexturePlaces) coordinates; // of all triangles in the order of primitives, one set after the other
     ADDRESS(VertexColors) colors;       // of all triangles
+    ADDRESS(Tangents) tangents;         // likewise
     ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
     ADDRESS(uint) overflows; // how often a path was in more than four media
     Target lit;              // about all that light falls upon

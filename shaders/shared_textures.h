@@ -79,6 +79,17 @@ struct VertexColors {
 };
 BUFFER(VertexColors)
 
+/// Tangents of the corners of a triangle, along which red of a normal map turns normals, on its side with the sign
+/// `side` of the direction of green: that of cross(normal, tangent), or against it. All are 0 where the mesh gives
+/// none.
+struct Tangents {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    float side;
+};
+BUFFER(Tangents)
+
 // Rows of DeviceScene.rests of a lobe whose roughness is a texture: at roughnesses i / ROUGHNESS_STEPS.
 const uint ROUGHNESS_STEPS = 32u;
 

@@ -53,6 +53,13 @@ public:
                 given->fail(fmt::format("found {} colours", colors->count()),
                             fmt::format("there are {} positions", positions->count()));
         }
+        // Without normals they do not count (section 3.7.2.1).
+        if (const auto given = normal ? attributes.find("TANGENT") : std::nullopt) {
+            tangents.emplace(file, *given, "VEC4");
+            if (tangents->count() != positions->count())
+                given->fail(fmt::format("found {} tangents", tangents->count()),
+                            fmt::format("there are {} positions", positions->count()));
+        }
         if (const auto indices = place.find("indices")) readIndices(*indices);
         else
             for (uint i = 0; i < positions->count(); ++i) corners.push_back(i);
@@ -103,6 +110,13 @@ private:
                     colors->place().fail(fmt::format("colour {} is not finite", i), "allowed are finite numbers");
                 mesh.colors.emplace_back(glm::clamp(dvec3{color}, 0.0, 1.0));
             }
+            if (tangents) {
+                const dvec4 tangent = tangents->at(i);
+                if (!isSound(tangent) || !std::isfinite(tangent.w))
+                    tangents->place().fail(fmt::format("tangent {} is not finite", i),
+                                           "allowed are four finite numbers");
+                mesh.tangents.emplace_back(tangent);
+            }
             if (!normals) continue;
             const dvec4 normal = normals->at(i);
             if (!isSound(normal))
@@ -134,7 +148,7 @@ private:
     Reader place;
     Losses& losses;
     uint mode = TRIANGLES;
-    std::optional<GltfAccessor> positions, normals, colors, coordinates[2];
+    std::optional<GltfAccessor> positions, normals, tangents, colors, coordinates[2];
     std::vector<uint> corners;
     IndexedMesh mesh;
 };
@@ -157,6 +171,10 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
             all.colors.push_back(c);
         }
     }
+    if (!part.tangents.empty()) {
+        all.tangents.resize(all.triangles.size());
+        for (const Tangents& t : part.tangents) all.tangents.push_back(transformed(t, transform));
+    }
     for (Mesh::Triangle triangle : part.triangles) {
         for (dvec3& point : triangle.points) point = transform.point(point);
         if (triangle.normals)
@@ -170,6 +188,7 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
     for (auto& set : all.coordinates)
         if (!set.empty()) set.resize(all.triangles.size());
     if (!all.colors.empty()) all.colors.resize(all.triangles.size(), white);
+    if (!all.tangents.empty()) all.tangents.resize(all.triangles.size());
 }
 
 } // namespace

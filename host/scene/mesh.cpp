@@ -56,6 +56,18 @@ std::optional<std::array<vec3, 3>> normalsOf(const std::filesystem::path& file, 
     return normals;
 }
 
+/// Of a triangle whose corners have normals.
+Tangents tangentsOf(const IndexedMesh& from, const Corners& corners, const Mesh::Triangle& triangle) {
+    if (!triangle.normals) return {};
+    const auto& [a, b, c] = corners;
+    const vec4 at[] = {from.tangents[a.vertex], from.tangents[b.vertex], from.tangents[c.vertex]};
+    const dvec3 normal = glm::cross(triangle.points[1] - triangle.points[0], triangle.points[2] - triangle.points[0]);
+    double side = 0; // kernels turn normals to the side of the triangle's
+    for (std::size_t i = 0; i < 3; ++i)
+        side += double{at[i].w} * glm::sign(glm::dot(dvec3{(*triangle.normals)[i]}, normal));
+    return {vec3{at[0]}, vec3{at[1]}, vec3{at[2]}, side < 0 ? -1.0f : 1.0f};
+}
+
 } // namespace
 
 /// What a file is: "PLY", "glTF", another format by its first bytes, or empty if it may be an OBJ file.
@@ -120,11 +132,27 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
                 };
                 mesh.coordinates[set].push_back({at(corners[0]), at(corners[1]), at(corners[2])});
             }
+    if (!from.tangents.empty())
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            mesh.tangents.push_back(tangentsOf(from, from.triangles[i], mesh.triangles[i]));
     if (!from.colors.empty())
         for (const Corners& corners : from.triangles)
             mesh.colors.push_back(
                 {from.colors[corners[0].vertex], from.colors[corners[1].vertex], from.colors[corners[2].vertex]});
     return mesh;
+}
+
+Tangents transformed(const Tangents& tangents, const Transform& transform) {
+    const auto direction = [&](vec3 tangent) {
+        const dvec3 d = transform.direction(dvec3{tangent});
+        const double length = glm::length(d);
+        return length > 0 ? vec3{d / length} : vec3{0};
+    };
+    Tangents result{direction(tangents.a), direction(tangents.b), direction(tangents.c), tangents.side};
+    if (!transform.mirrors()) return result;
+    std::swap(result.b, result.c);
+    result.side = -result.side;
+    return result;
 }
 
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness) {

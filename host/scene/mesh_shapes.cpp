@@ -193,6 +193,11 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t
         scene.textured.colors.resize(scene.primitives.size());
         scene.textured.colors.push_back(colors);
     }
+    const uint textured = scene.materials[surface.material].textures;
+    if (!mesh.tangents.empty() && textured != 0 && scene.textured.materials[textured - 1].normal != NONE) {
+        scene.textured.tangents.resize(scene.primitives.size());
+        scene.textured.tangents.push_back(transformed(mesh.tangents[index], transform));
+    }
     addFlat(shape, primitive);
 }
 

@@ -53,6 +53,7 @@ struct TextureArrays {
     std::vector<uint> texels;
     std::vector<TexturePlaces> coordinates; // of all triangles, one set after the other
     std::vector<VertexColors> colors;       // of all triangles
+    std::vector<Tangents> tangents;         // likewise
     uint sets = 0;
 };
 

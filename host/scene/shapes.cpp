@@ -85,6 +85,7 @@ void ShapeLoader::finish() {
         scene.textured.sets = std::max(scene.textured.sets, texture.set + 1);
     if (coordinates[0].empty()) scene.textured.sets = 0;
     if (!scene.textured.colors.empty()) scene.textured.colors.resize(scene.triangleCount);
+    if (!scene.textured.tangents.empty()) scene.textured.tangents.resize(scene.triangleCount);
     for (uint set = 0; set < scene.textured.sets; set++) {
         coordinates[set].resize(scene.triangleCount);
         scene.textured.coordinates.insert(scene.textured.coordinates.end(), coordinates[set].begin(),
