@@ -1,6 +1,7 @@
 /// Reading of primitives, corner by corner, and of a whole file as one mesh.
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_compression.h"
 #include "scene/gltf_nodes.h"
 #include "scene/transform.h"
 #include <algorithm>
@@ -33,6 +34,7 @@ public:
             return {};
         }
         noteLosses();
+        unpackDraco(file, place);
         positions.emplace(file, *position, "VEC3");
         if (normal) normals.emplace(file, *normal, "VEC3");
         if (normals && normals->count() != positions->count())
