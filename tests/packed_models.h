@@ -10,18 +10,18 @@ namespace vkpm {
 
 enum class Packing { none, dracoSequential, dracoEdgebreaker, meshopt };
 
-/// A wavy sheet of 6 x 6 squares.
+/// A wavy sheet of 2 x 2 squares.
 struct Sheet {
     std::vector<float> points;
     std::vector<unsigned> corners;
 
     Sheet() {
-        for (unsigned y = 0; y <= 6; y++)
-            for (unsigned x = 0; x <= 6; x++) {
+        for (unsigned y = 0; y <= 2; y++)
+            for (unsigned x = 0; x <= 2; x++) {
                 points.insert(points.end(), {float(x), float(y), std::sin(float(x + 2 * y))});
-                if (x == 6 || y == 6) continue;
-                const unsigned a = 7 * y + x;
-                corners.insert(corners.end(), {a, a + 1, a + 8, a, a + 8, a + 7});
+                if (x == 2 || y == 2) continue;
+                const unsigned a = 3 * y + x;
+                corners.insert(corners.end(), {a, a + 1, a + 4, a, a + 4, a + 3});
             }
     }
 };
