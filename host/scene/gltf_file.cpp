@@ -111,8 +111,8 @@ bool isGltfName(const fs::path& file) {
     return end == ".gltf" || end == ".glb";
 }
 
-GltfFile::GltfFile(fs::path path) : file{std::move(path)}, read{file} {
-    whole = readBytes(file, maxMeshBytes, "cut it into several");
+GltfFile::GltfFile(fs::path path) : file{std::move(path)} {
+    whole = readBytes(file, maxMeshBytes, "cut it into several", &read.emplace_back());
     bytesRead = whole.size();
     if (whole.starts_with("glTF")) openBinary();
     if (whole.size() > maxGltfText)
@@ -248,8 +248,7 @@ std::string GltfFile::loadFile(const Reader& uri, const std::string& text) {
     const fs::path path = file.parent_path() / name;
     if (const std::string problem = fileProblem(path, true); !problem.empty())
         uri.fail(fmt::format("{}: {}", path.string(), problem), "give a file, relative to this one");
-    if (std::ranges::find(read, path) == read.end()) read.push_back(path);
-    std::string bytes = readBytes(path, maxMeshBytes, "cut it into several");
+    std::string bytes = readBytes(path, maxMeshBytes, "cut it into several", &read.emplace_back());
     bytesRead += bytes.size();
     return bytes;
 }

@@ -1,6 +1,7 @@
 /// A glTF 2.0 file (Khronos 2021), .gltf or .glb: its JSON, and the buffers that it names.
 #pragma once
 #include "scene/reader.h"
+#include "scene/text.h"
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,7 +38,7 @@ public:
     std::string image(Reader& place);
     const std::filesystem::path& name() const { return file; }
 
-    const std::vector<std::filesystem::path>& files() const { return read; }
+    const std::vector<FileRead>& files() const { return read; }
     std::uint64_t size() const { return bytesRead; } // of all that was read so far
 
 private:
@@ -55,7 +56,7 @@ private:
     nlohmann::json json;
     std::vector<std::optional<std::string>> buffers;
     std::map<uint, std::string> unpackedViews, unpacked; // of views and accessors by their indices
-    std::vector<std::filesystem::path> read;
+    std::vector<FileRead> read;
     std::uint64_t bytesRead = 0;
 };
 

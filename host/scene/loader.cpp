@@ -234,15 +234,6 @@ void readScene(Reader root, Scene& scene) {
     loader.finish();
 }
 
-/// Hashes of files but the first, for those who ask later what has changed.
-void hashFiles(Scene& scene) {
-    for (std::size_t i = 1; i < scene.files.size(); ++i) {
-        const auto name = scene.files[i].lexically_relative(scene.files.front().parent_path());
-        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] =
-            hashText(readBytes(scene.files[i], maxMeshBytes, ""));
-    }
-}
-
 } // namespace
 
 Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
@@ -261,7 +252,6 @@ Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
     const nlohmann::json json = parseJson(file, scene.text);
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
-    hashFiles(scene);
     scene.lit = sphereOfLit(scene);
     measureEndless(scene);
     chooseLights(scene, file);

@@ -109,7 +109,7 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
     std::vector<dvec3> computed;
     if (smoothness == Smoothness::smooth) computed = angleWeightedNormals(from);
 
-    Mesh mesh{.files = {file}};
+    Mesh mesh;
     if (from.skippedFaces > 0)
         mesh.warnings.push_back(fmt::format("{} faces have fewer than 3 corners and were left out", from.skippedFaces));
     mesh.materials = from.materialOfTriangle;
@@ -157,13 +157,17 @@ Tangents transformed(const Tangents& tangents, const Transform& transform) {
 
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness) {
     const std::string_view format = formatOf(file);
-    const char* const advice = "cut it into several meshes";
-    if (format == "PLY") return meshOf(file, readPly(file, readBytes(file, maxMeshBytes, advice)), smoothness);
     if (format == "glTF") return loadGltfMesh(file, smoothness);
-    if (!format.empty())
+    if (!format.empty() && format != "PLY")
         refuseFile(file, ":1", fmt::format("found {}", format),
                    "allowed is an OBJ, PLY or glTF file, uncompressed; most programs for meshes export them");
-    return meshOf(file, readObj(file, readText(file, maxMeshBytes, advice)), smoothness);
+    const char* const advice = "cut it into several meshes";
+    FileRead read;
+    const IndexedMesh indexed = format == "PLY" ? readPly(file, readBytes(file, maxMeshBytes, advice, &read))
+                                                : readObj(file, readText(file, maxMeshBytes, advice, &read));
+    Mesh mesh = meshOf(file, indexed, smoothness);
+    mesh.files = {read};
+    return mesh;
 }
 
 } // namespace vkpm

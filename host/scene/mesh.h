@@ -1,6 +1,7 @@
 /// Triangle meshes read from OBJ, PLY and glTF files.
 #pragma once
 #include "scene/indexed_mesh.h"
+#include "scene/text.h"
 #include "scene/transform.h"
 #include "shared_textures.h"
 #include <array>
@@ -27,7 +28,7 @@ struct Mesh {
     std::vector<uint> materials;               // of all triangles: index into `materialNames`; or empty
     std::vector<std::string> materialNames;
     std::vector<std::string> warnings;
-    std::vector<std::filesystem::path> files; // that were read
+    std::vector<FileRead> files; // that were read
 };
 
 /// Tangents of a triangle that a transform moves: its corners b and c change places where it mirrors.

@@ -109,8 +109,9 @@ uint Textures::image(const Reader& place, const std::filesystem::path& file, Tex
     if (const std::string problem = fileProblem(file, true); !problem.empty())
         place.fail(fmt::format("{}: {}", printable(file.string(), 4096), problem),
                    "give a PNG, JPEG, OpenEXR or Radiance image, relative to the scene file");
-    const std::string bytes = readBytes(file, maxMeshBytes, "make the image smaller");
-    noteFiles(scene, {file});
+    FileRead read;
+    const std::string bytes = readBytes(file, maxMeshBytes, "make the image smaller", &read);
+    noteFiles(scene, {read});
     return image(place, file.string(), bytes, space);
 }
 
