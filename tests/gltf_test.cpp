@@ -203,6 +203,14 @@ TEST(Gltf, MaterialsAreStandardOnesOrGlass) {
     EXPECT_EQ(m.color, vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.normalIncidence, vec3(0.5f, 0.6f, 0.7f));
     EXPECT_EQ(m.alpha, 0.25f);
+    m = materialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.5]}, "alphaMode": "BLEND",
+        "extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})"); // nothing of the newer model counts
+    EXPECT_EQ(m.color, vec3(1));
+    EXPECT_EQ(m.seeThrough, 0);
+    for (const auto& [cutoff, seeThrough] : {std::pair{0.5, 0.0f}, {1.0, 0.0f}, {1.5, 1.0f}}) {
+        const json masked = {{"alphaMode", "MASK"}, {"alphaCutoff", cutoff}};
+        EXPECT_EQ(materialOf(masked.dump().c_str()).seeThrough, seeThrough) << cutoff;
+    }
     const char* const glass = R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.25}}})";
     m = materialOf(glass);

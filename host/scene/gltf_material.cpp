@@ -161,6 +161,9 @@ private:
     void readSpecularGlossiness() {
         auto older = extension("KHR_materials_pbrSpecularGlossiness");
         if (!older) return;
+        base = vec3{1}; // in place of what the newer model says
+        alpha = 1;
+        baseTexture = roughnessTexture = std::nullopt;
         metallic = ior = 0;
         roughness = 1 - numberOr(older, "glossinessFactor", 1, fraction);
         specularColor = colorOr(older, "specularFactor", fraction);
@@ -185,10 +188,14 @@ private:
     void readOpacity() {
         const auto mode = material.find("alphaMode"), threshold = material.find("alphaCutoff");
         const std::size_t kind = mode ? mode->choice({"OPAQUE", "MASK", "BLEND"}) : 0;
-        if (kind == 0 || (!baseTexture && alpha == 1)) return;
+        if (kind == 0 || (kind == 2 && !baseTexture && alpha == 1)) return;
         opacity = withFactor(baseTexture, alpha);
         if (baseTexture) opacity["channel"] = "a";
-        if (kind == 1) cutoff = std::min(threshold ? threshold->number(notNegative) : 0.5f, 1.0f);
+        if (kind == 1) cutoff = threshold ? threshold->number(notNegative) : 0.5f;
+        if (cutoff > 1.0f) { // nothing is as opaque
+            opacity = 0;
+            cutoff.reset();
+        }
     }
 
     void noteLosses() {

@@ -51,6 +51,7 @@ public:
             const std::string type{
                 file.referenced(*given, "accessors").at("type").choice({"VEC3", "VEC4"}) == 0 ? "VEC3" : "VEC4"};
             colors.emplace(file, *given, type);
+            hasOpacity = type == "VEC4";
             if (colors->count() != positions->count())
                 given->fail(fmt::format("found {} colours", colors->count()),
                             fmt::format("there are {} positions", positions->count()));
@@ -111,6 +112,8 @@ private:
                 if (!isSound(color))
                     colors->place().fail(fmt::format("colour {} is not finite", i), "allowed are finite numbers");
                 mesh.colors.emplace_back(glm::clamp(dvec3{color}, 0.0, 1.0));
+                if (hasOpacity && color.w < 1)
+                    losses.add(place, "the opacity of colours of vertices is left out"), hasOpacity = false;
             }
             if (tangents) {
                 const dvec4 tangent = tangents->at(i);
@@ -150,6 +153,7 @@ private:
     Reader place;
     Losses& losses;
     uint mode = TRIANGLES;
+    bool hasOpacity = false; // of colours, of which none was found yet
     std::optional<GltfAccessor> positions, normals, tangents, colors, coordinates[2];
     std::vector<uint> corners;
     IndexedMesh mesh;
