@@ -391,6 +391,11 @@ TEST(Textures, ModelsHaveTheirs) {
     EXPECT_NEAR(textures[slots.specularColor].factor.z, 0.12, 1e-6);
     EXPECT_EQ(scene.textured.images[textures[slots.specularColor].image].format, TEXELS_SRGB);
     EXPECT_EQ(scene.textured.images[textures[slots.specular].image].format, TEXELS_LINEAR);
+    file["materials"][1] = json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "specularFactor": [0.5, 0.25, 1], "specularGlossinessTexture": {"index": 1}}}})");
+    scene = load();
+    const Texture& older = scene.textured.textures[scene.textured.materials[0].specularColor];
+    EXPECT_EQ(older.factor, vec3(0.5f, 0.25f, 1));
     primitive["material"] = 0;
 
     file["materials"][0]["emissiveTexture"]["index"] = 2;

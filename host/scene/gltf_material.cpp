@@ -169,7 +169,8 @@ private:
         specularColor = colorOr(older, "specularFactor", fraction);
         if (const auto color = older->find("diffuseFactor")) base = readBase(*color);
         if (const auto info = older->find("diffuseTexture")) baseTexture = textures.read(*info, true);
-        if (older->find("specularGlossinessTexture")) lose("a texture of specular colour and gloss is left out");
+        specularColorTexture = textureOf(older, "specularGlossinessTexture", true);
+        if (specularColorTexture) lose("the gloss of a texture of specular colour and gloss is left out");
     }
 
     vec3 readBase(const Reader& color) {
