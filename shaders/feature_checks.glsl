@@ -39,6 +39,7 @@ void requireSurface(DeviceScene scene, uint primitive, Material material) {
                 MaterialTexturesPtr(scene.materialTextures).at[material.textures - 1u].normal != NONE,
             hasNormalMaps && hasSmoothNormals && hasSmoothDiffuse, id_hasNormalMaps);
     require(scene, material.wide != 0u, hasWide, id_hasWide);
+    require(scene, material.base != 0u, hasMixed, id_hasMixed);
     require(scene, material.wide == 0u && material.kind != MATERIAL_DIFFUSE, hasNarrow, id_hasNarrow);
     require(scene, glass && material.color != vec3(1.0), hasTint, id_hasTint);
     require(scene, glass && material.schlick != 0u, hasSchlickFresnel, id_hasSchlickFresnel);

@@ -13,6 +13,7 @@
 #include "light_kinds.glsl"
 #include "lobes.glsl"
 #include "normal_map.glsl"
+#include "random.glsl"
 #include "scattering.glsl"
 #include "shared_kinds.h"
 #include "shared_paths.h"
@@ -143,19 +144,39 @@ float diffuseArrival(DeviceScene scene, Material m, float cosine) {
     return restAt(scene, m, cosine) / meanRest(scene, m);
 }
 
-// The material of a surface where it was hit, with what its textures say there.
-Material materialAt(DeviceScene scene, Surface s, vec2 weights) {
-    Material m = MaterialPtr(scene.materials).at[s.material];
-    if (hasTextures && m.textures != 0u)
-        return texturedMaterial(scene, m, SLOT_COLOR, s.primitive, weights, s.position);
-    return m;
+// Surfaces that transmit a part are glass with the probability `transmission` of their dielectric, else a standard
+// material with all of their metal: a mixture of both, chosen by a hash of the ray, as in opacity.glsl, and by the same
+// rule for photons and rays from the eye.
+bool isMixed(Material m) { return hasMixed && m.base != 0u; }
+
+// Turns the material that stands beside glass into what is there where there is no glass; `transmission` becomes the
+// probability of glass.
+void takeBase(inout Material m) {
+    m.transmission *= 1.0 - m.metallic;
+    m.metallic = min(1.0, m.metallic / max(1.0 - m.transmission, 1e-6));
+}
+
+// The material of a surface where a path hit it, with what its textures say there.
+Material materialAt(DeviceScene scene, Path path, Surface s, vec2 weights) {
+    Material glass = MaterialPtr(scene.materials).at[s.material], m = glass;
+    if (isMixed(glass)) m = MaterialPtr(scene.materials).at[glass.base - 1u];
+    if (hasTextures && m.textures != 0u) m = texturedMaterial(scene, m, SLOT_COLOR, s.primitive, weights, s.position);
+    if (!isMixed(glass)) return m;
+    takeBase(m);
+    if (choiceOfRay(path.origin, path.direction, ~s.primitive) >= m.transmission) return m;
+    glass.color = m.color;
+    glass.alpha = m.alpha;
+    return glass;
 }
 
 // The material of a primitive as far as arrival at its diffuse lobe asks, at a place next to it.
 Material materialOfArrival(DeviceScene scene, uint primitive, vec3 position) {
     Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
+    bool mixed = isMixed(m);
+    if (mixed) m = MaterialPtr(scene.materials).at[m.base - 1u];
     if (hasTextures && m.textures != 0u)
         m = texturedMaterial(scene, m, SLOT_METALLIC, primitive, weightsAt(scene, primitive, position), position);
+    if (mixed) takeBase(m);
     return m;
 }
 

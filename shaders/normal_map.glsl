@@ -33,15 +33,26 @@ void textureAxes(DeviceScene scene, Surface s, uint set, out vec3 u, out vec3 v)
     v = side * scale * (b.x * ac - d.x * ab);
 }
 
-// Turns the shading normal of a surface as its material says. Axes are those of the triangle; along a smooth mesh they
-// are kept across its shading normal (as in Pharr, Jakob & Humphreys 2016, section 9.1).
+// The same as the mesh has them, if it does.
+bool hasOwnAxes(DeviceScene scene, Surface s, vec2 weights, out vec3 u, out vec3 v) {
+    u = v = vec3(0.0);
+    if (scene.tangents == uvec2(0u) || s.primitive >= scene.triangleCount) return false;
+    Tangents t = TangentsPtr(scene.tangents).at[s.primitive];
+    u = t.a + weights.x * (t.b - t.a) + weights.y * (t.c - t.a);
+    v = t.side * cross(s.shading, u);
+    return dot(v, v) > 1e-12;
+}
+
+// Turns the shading normal of a surface as its material says. Axes are those of the mesh or of the triangle; along a
+// smooth mesh they are kept across its shading normal (as in Pharr, Jakob & Humphreys 2016, section 9.1).
 void mapNormal(DeviceScene scene, inout Surface s, Material m, vec2 weights) {
     if (!hasNormalMaps || m.textures == 0u) return;
     uint index = MaterialTexturesPtr(scene.materialTextures).at[m.textures - 1u].normal;
     if (index == NONE) return;
     Texture t = TexturePtr(scene.textures).at[index];
-    vec3 u = vec3(0.0), v = vec3(0.0);
-    if (s.primitive >= scene.triangleCount || t.set < scene.coordinateSets) textureAxes(scene, s, t.set, u, v);
+    vec3 u, v;
+    if (!hasOwnAxes(scene, s, weights, u, v) && (s.primitive >= scene.triangleCount || t.set < scene.coordinateSets))
+        textureAxes(scene, s, t.set, u, v);
     u -= dot(u, s.shading) * s.shading;
     float length2 = dot(u, u);
     if (!(length2 > 1e-30)) return;

@@ -25,9 +25,8 @@ float opacityAt(DeviceScene scene, Material m, uint primitive, vec2 weights, vec
 bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weights, bool again) {
     Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
     if (m.seeThrough == 0.0) return false;
-    uint bits = hash(floatBitsToUint(ray.origin)) ^ hash(floatBitsToUint(ray.direction) + uvec3(0x9e3779b9u));
-    bits = hash(bits ^ hash(2u * primitive + uint(again)));
-    return unitFloat(bits) >= opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
+    float choice = choiceOfRay(ray.origin, ray.direction, 2u * primitive + uint(again));
+    return choice >= opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
 }
 
 #endif

@@ -39,6 +39,12 @@ uint sobolSecond(uint index) {
 // The 24 high bits as a float in [0, 1).
 float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 
+// A choice in [0, 1) that is the same for the same ray and number.
+float choiceOfRay(vec3 origin, vec3 direction, uint number) {
+    uint bits = hash(floatBitsToUint(origin)) ^ hash(floatBitsToUint(direction) + uvec3(0x9e3779b9u));
+    return unitFloat(hash(bits ^ hash(number)));
+}
+
 // A point in [0, 1)^2; each dimension pair has its own shuffle and scrambling.
 vec2 sample2(Sampler s, uint dimension) {
     uint seed = hash(s.seed, dimension);

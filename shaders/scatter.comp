@@ -176,7 +176,7 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     Sampler s = photonSampler(args.firstPhoton + slot, args.pass, args.seed, args.caustic);
     Surface surface = surfaceAt(scene, path, hit);
     if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
-    Material material = materialAt(scene, surface, hit.weights);
+    Material material = materialAt(scene, path, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;
     mapNormal(scene, surface, material, hit.weights);
@@ -204,9 +204,11 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
         arrives = maxComponent(photon.color) > 0.0;
         deposit = PhotonDeposit(photon, slot, index);
     }
-    // Of a surface that stops a part alone the eye sees as much; what it sees is lit by all of the light.
+    // Of a surface that stops a part alone, or is glass in part, the eye sees as much; what it sees is lit by all of
+    // the light.
     if (hasOpacity && arrives && material.seeThrough > 0.0)
         deposit.photon.color /= max(opacityAt(scene, material, hit.primitive, hit.weights, surface.position), 1e-6);
+    if (hasMixed && arrives) deposit.photon.color /= max(1.0 - material.transmission, 1e-6);
     return outcome;
 }
 

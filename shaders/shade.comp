@@ -262,7 +262,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
         return vertex;
     }
     Surface surface = surfaceAt(scene, path, hit);
-    Material material = materialAt(scene, surface, hit.weights);
+    Material material = materialAt(scene, path, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     if (checksFeatures) require(scene, activeIntegrator() != args.integrator, false, id_integrator);
     if (hasLayered && material.kind != MATERIAL_DIFFUSE) surface.bulge = 0.0;

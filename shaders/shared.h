@@ -105,7 +105,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(37, bool, hasOpacity, true)                                                                                      \
     X(38, bool, hasEmissionTextures, true)                                                                             \
     X(40, bool, hasWide, true)                                                                                         \
-    X(41, bool, hasNormalMaps, true)
+    X(41, bool, hasNormalMaps, true)                                                                                   \
+    X(42, bool, hasMixed, true) /* surfaces that transmit a part */
 
 #ifdef __cplusplus
 struct Features {

@@ -82,6 +82,8 @@ struct Material {
     uint exterior;        // glass: what is outside of it, likewise; NONE: what a path was in
     vec2 spread;          // glass: what is added to `ior` for red and for blue
     uint wide;            // 1: the label of its glossy lobe is W
+    uint base;            // glass: 0, or 1 + index of the standard material that is there in its place by chance
+    float transmission;   // standard: 1 - this stands for what its dielectric has of that chance
 };
 BUFFER(Material)
 
@@ -167,6 +169,7 @@ struct DeviceScene {
     ADDRESS(uint) texels;               // tables, then words of images, see TexelImage
     ADDRESS(TexturePlaces) coordinates; // of all triangles in the order of primitives, one set after the other
     ADDRESS(VertexColors) colors;       // of all triangles
+    ADDRESS(Tangents) tangents;         // likewise
     ADDRESS(uint) missing;   // a bit for each feature that a kernel needed and was without, if checksFeatures
     ADDRESS(uint) overflows; // how often a path was in more than four media
     Target lit;              // about all that light falls upon

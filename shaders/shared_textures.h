@@ -56,6 +56,9 @@ struct MaterialTextures {
     uint roughness;
     uint opacity;
     uint normal; // its factor is (strength, strength, 1)
+    uint specular;
+    uint specularColor; // its factor has the reflectance by the index, too
+    uint transmission;
     uint colors; // 1: its color is multiplied by those of vertices
 };
 BUFFER(MaterialTextures)
@@ -75,6 +78,17 @@ struct VertexColors {
     vec3 c;
 };
 BUFFER(VertexColors)
+
+/// Tangents of the corners of a triangle, along which red of a normal map turns normals, on its side with the sign
+/// `side` of the direction of green: that of cross(normal, tangent), or against it. All are 0 where the mesh gives
+/// none.
+struct Tangents {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    float side;
+};
+BUFFER(Tangents)
 
 // Rows of DeviceScene.rests of a lobe whose roughness is a texture: at roughnesses i / ROUGHNESS_STEPS.
 const uint ROUGHNESS_STEPS = 32u;

@@ -48,8 +48,9 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
     vec3 direction = normalize(toPhoton);
     Hit hit = closest(scene, eye, direction, NONE);
     if (hit.primitive == NONE) return false;
-    Surface surface = surfaceAt(scene, Path(eye, direction, vec3(1.0), 0.0, NONE, 0u, 0u), hit);
-    Material material = materialAt(scene, surface, hit.weights);
+    Path path = Path(eye, direction, vec3(1.0), 0.0, NONE, 0u, 0u);
+    Surface surface = surfaceAt(scene, path, hit);
+    Material material = materialAt(scene, path, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     mapNormal(scene, surface, material, hit.weights);
     bool wide = hasWide && reflectsWide(material);

@@ -9,6 +9,9 @@
 const uint SLOT_COLOR = 0u; // of MaterialTextures
 const uint SLOT_METALLIC = 1u;
 const uint SLOT_ROUGHNESS = 2u;
+const uint SLOT_SPECULAR = 3u;
+const uint SLOT_SPECULAR_COLOR = 4u;
+const uint SLOT_TRANSMISSION = 5u;
 
 // What a texel holds, linear, with alpha.
 vec4 texelAt(DeviceScene scene, TexelImage image, uint x, uint y) {
@@ -130,16 +133,27 @@ void setRoughness(inout Material m, float roughness) {
 Material texturedMaterial(DeviceScene scene, Material m, uint first, uint primitive, vec2 weights, vec3 position) {
     MaterialTextures slots = MaterialTexturesPtr(scene.materialTextures).at[m.textures - 1u];
     vec2 coordinates[2] = coordinatesAt(scene, primitive, weights, position);
-    [[dont_unroll]] for (uint i = first; i <= SLOT_ROUGHNESS; i++) {
-        uint index = i == SLOT_COLOR ? slots.color : i == SLOT_METALLIC ? slots.metallic : slots.roughness;
+    uint end = isStandard(m) ? SLOT_TRANSMISSION : SLOT_ROUGHNESS;
+    [[dont_unroll]] for (uint i = first; i <= end; i++) {
+        uint index = i == SLOT_COLOR            ? slots.color
+                     : i == SLOT_METALLIC       ? slots.metallic
+                     : i == SLOT_ROUGHNESS      ? slots.roughness
+                     : i == SLOT_SPECULAR       ? slots.specular
+                     : i == SLOT_SPECULAR_COLOR ? slots.specularColor
+                                                : slots.transmission;
         if (index == NONE) continue;
         Texture t = TexturePtr(scene.textures).at[index];
         vec4 value = textureAt(scene, t, coordinates);
         float number = clamp(t.factor.x * value[t.channel], 0.0, 1.0);
         if (i == SLOT_COLOR) m.color = min(t.factor * value.rgb, 1.0);
         else if (i == SLOT_METALLIC) m.metallic = number;
-        else setRoughness(m, number);
+        else if (i == SLOT_ROUGHNESS) setRoughness(m, number);
+        else if (i == SLOT_SPECULAR) m.grazing = number;
+        else if (i == SLOT_SPECULAR_COLOR) m.normalIncidence = t.factor * value.rgb;
+        else m.transmission = number;
     }
+    if (isStandard(m) && (slots.specular & slots.specularColor) != NONE)
+        m.normalIncidence = m.grazing * min(m.normalIncidence, 1.0);
     if (slots.colors != 0u && first == SLOT_COLOR && primitive < scene.triangleCount) {
         VertexColors c = VertexColorsPtr(scene.colors).at[primitive];
         m.color *= c.a + weights.x * (c.b - c.a) + weights.y * (c.c - c.a);

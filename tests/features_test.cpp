@@ -173,6 +173,7 @@ public:
             const json image = {{"texture", std::string(VKPM_SCENES) + "/wood.png"}};
             materials["wood"] = {
                 {"type", "standard"}, {"metallic", random.unit()}, {"baseColor", image}, {"roughness", image}};
+            if (maybe()) materials["wood"]["transmission"] = maybe() ? image : json(random.unit());
             if (maybe()) materials["white"]["albedo"] = image;
         }
         if (random.bits() % 4 == 0)

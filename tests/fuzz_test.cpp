@@ -4,6 +4,7 @@
 #include "draw.h"
 #include "gltf_text.h"
 #include "mutate.h"
+#include "packed_models.h"
 #include "ply_text.h"
 #include "refusal.h"
 #include "render/explain.h"
@@ -51,7 +52,8 @@ const char* const objMesh =
 struct Corpus {
     fs::path folder = writeScene("", "x").parent_path();
     std::vector<json> scenes;
-    GltfText model = fullModel();
+    std::vector<GltfText> models{fullModel(), fullModel(), packedModel(Packing::dracoSequential),
+                                 packedModel(Packing::dracoEdgebreaker), packedModel(Packing::meshopt)};
     std::vector<std::string> plies{asciiPly(), binaryPly<std::endian::little>(), binaryPly<std::endian::big>()};
     std::vector<std::string> meshes{objMesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
 
@@ -135,7 +137,7 @@ private:
 
     /// Values of the JSON, bytes that it refers to, or bytes of the file.
     std::string damagedModel(Mutator& mutator) {
-        GltfText damaged = corpus.model;
+        GltfText damaged = mutator.oneOf(corpus.models);
         const bool values = mutator.below(10) < 7;
         for (std::size_t i = values ? 1 + mutator.below(4) : 0; i > 0; i--) mutator.changeValue(damaged.json);
         if (!damaged.json.is_object()) damaged.json = json::object();

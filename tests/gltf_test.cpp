@@ -1,5 +1,5 @@
 /// glTF files: geometry, cameras, lamps and materials as the specification has them; what is wrong has its place.
-#include "gltf_text.h"
+#include "packed_models.h"
 #include "scene/identity.h"
 #include "scene_text.h"
 #include <fmt/format.h>
@@ -203,6 +203,14 @@ TEST(Gltf, MaterialsAreStandardOnesOrGlass) {
     EXPECT_EQ(m.color, vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.normalIncidence, vec3(0.5f, 0.6f, 0.7f));
     EXPECT_EQ(m.alpha, 0.25f);
+    m = materialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.5]}, "alphaMode": "BLEND",
+        "extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})"); // nothing of the newer model counts
+    EXPECT_EQ(m.color, vec3(1));
+    EXPECT_EQ(m.seeThrough, 0);
+    for (const auto& [cutoff, seeThrough] : {std::pair{0.5, 0.0f}, {1.0, 0.0f}, {1.5, 1.0f}}) {
+        const json masked = {{"alphaMode", "MASK"}, {"alphaCutoff", cutoff}};
+        EXPECT_EQ(materialOf(masked.dump().c_str()).seeThrough, seeThrough) << cutoff;
+    }
     const char* const glass = R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
         "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.25}}})";
     m = materialOf(glass);
@@ -297,7 +305,6 @@ TEST(Gltf, WhatIsWrongHasItsPlace) {
     const std::tuple<const char*, json, const char*> wrong[] = {
         {"/asset/version", "1.0", "/asset/version: found version \"1.0\""},
         {"/extensionsRequired/0", "EXT_other", "/extensionsRequired/0: the file requires the extension \"EXT_other\""},
-        {"/extensionsRequired/0", "KHR_draco_mesh_compression", "by which its meshes are compressed"},
         {"/scene", 3, "/scene: found 3; allowed is an integer from 0 to 0"},
         {"/nodes/4/children", {0}, "/nodes/4/children/0: found node 0 a second time"},
         {"/nodes/0/mesh", 7, "/nodes/0/mesh: found 7"},
@@ -327,6 +334,49 @@ TEST(Gltf, WhatIsWrongHasItsPlace) {
     EXPECT_THAT(errorOf(writeScene(glb.substr(0, 300), "model.glb")),
                 HasSubstr("model.glb: byte 8: the file says that it has"));
     EXPECT_THAT(errorOf(writeScene("glTF", "model.glb")), HasSubstr("model.glb: byte 4: the file ends here"));
+}
+
+/// The corners of each triangle, the least first, in the order of numbers.
+std::vector<std::array<std::array<double, 3>, 3>> trianglesOf(const Scene& scene) {
+    std::vector<std::array<std::array<double, 3>, 3>> all;
+    const std::vector<dvec3> places = placesOf(scene);
+    for (std::size_t i = 0; i < places.size(); i += 3) {
+        all.emplace_back();
+        for (std::size_t k = 0; k < 3; k++) all.back()[k] = {places[i + k].x, places[i + k].y, places[i + k].z};
+        std::ranges::rotate(all.back(), std::ranges::min_element(all.back()));
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
+TEST(Gltf, CompressedMeshesAreThoseOfPlainOnes) {
+    const auto plain = trianglesOf(loadModel(packedModel(Packing::none)));
+    ASSERT_EQ(plain.size(), 8u);
+    for (const Packing packing : {Packing::dracoSequential, Packing::dracoEdgebreaker, Packing::meshopt})
+        EXPECT_EQ(trianglesOf(loadModel(packedModel(packing))), plain) << int(packing);
+}
+
+TEST(Gltf, WhatIsWrongWithCompressedMeshesHasItsPlace) {
+    const std::string view = "/bufferViews/0/extensions/EXT_meshopt_compression", primitive = "/meshes/0/primitives/0";
+    const std::tuple<Packing, std::string, json, std::string> wrong[] = {
+        {Packing::meshopt, view + "/count", 200, view + ": found bytes that meshoptimizer cannot unpack"},
+        {Packing::meshopt, view + "/count", 4'000'000'000u, view + "/count: found 4000000000 elements of 12 bytes in"},
+        {Packing::meshopt, view + "/byteStride", 10, view + "/byteStride: found 10; allowed are multiples of 4"},
+        {Packing::meshopt, view + "/filter", "QUATERNION", view + "/filter: found \"QUATERNION\" beside"},
+        {Packing::meshopt, view + "/byteLength", 1e6, view + ": found bytes 0 to 1000000 of a buffer"},
+        {Packing::dracoSequential, "/accessors/0/count", 8, "/accessors/0: found 8 elements; the mesh has 9"},
+        {Packing::dracoEdgebreaker, "/accessors/1/count", 4'000'000'000u, "/accessors/1: found 4000000000 elements"},
+        {Packing::dracoEdgebreaker, primitive + "/extensions/KHR_draco_mesh_compression/attributes/POSITION", 1,
+         "/attributes/POSITION: found 1; the mesh has no such attribute"},
+        {Packing::dracoEdgebreaker, "/accessors/0/type", "VEC2", "the accessor has elements of another length"}};
+    for (const auto& [packing, pointer, value, message] : wrong) {
+        GltfText model = packedModel(packing);
+        model.json[json::json_pointer(pointer)] = value;
+        EXPECT_THAT(errorOf(writeScene(model.glb(), "model.glb")), HasSubstr(message)) << pointer;
+    }
+    GltfText model = packedModel(Packing::dracoSequential);
+    model.bytes[6] = 9;
+    EXPECT_THAT(errorOf(writeScene(model.glb(), "model.glb")), HasSubstr("/bufferViews/0: found version 2.9 of Draco"));
 }
 
 TEST(Gltf, BuffersAreFilesNotAddressesOrPipes) {

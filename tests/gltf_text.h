@@ -92,6 +92,8 @@ inline GltfText fullModel() {
     const auto shifts = model.add<float>({0, 0, -1, 0, 0, -2}, "VEC3");
     const auto turns = model.add<float>({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
     json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
+    json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
+        model.add<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, -1}, "VEC4");
     json["meshes"][0]["primitives"][0]["material"] = 0;
     json["meshes"].push_back({{"primitives",
                                {{{"attributes", {{"POSITION", bytes}}}, {"mode", 5}, {"material", 1}},

@@ -1,5 +1,6 @@
 /// Normal maps: normals by hand, furnaces that lose nothing, and photons that see what paths from the eye see.
 #include "draw.h"
+#include "gltf_text.h"
 #include "images.h"
 #include "render_support.h"
 #include <gmock/gmock.h>
@@ -79,6 +80,32 @@ TEST(NormalMaps, FollowTheCoordinatesOfMeshes) {
     const json flat = mesh("vt 0 0\nvt 2 0\nvt 1 0\n");
     expectNear(normalSeen(flat), {0, 0, 1}, "without an area");
     EXPECT_THAT(loadJson(flat).warnings, testing::ElementsAre(testing::HasSubstr("span no area")));
+}
+
+// A mesh's own tangents count in place of its coordinates, mirrored ones too, where it has normals.
+TEST(NormalMaps, FollowTheTangentsOfMeshes) {
+    writeScene(pngBytes<unsigned char>(1, 1, {204, 153, 230, 255}), "tilt.png");
+    const glm::dvec3 value{204 / 127.5 - 1, 153 / 127.5 - 1, 230 / 127.5 - 1};
+    const auto seen = [&](float side, const json& node, bool hasNormals = true, bool hasTangents = true) {
+        GltfText model;
+        json attributes = {{"POSITION", model.add<float>({-1, -1, 0, 3, -1, 0, -1, 3, 0}, "VEC3")},
+                           {"TEXCOORD_0", model.add<float>({0, 1, 2, 1, 0, -1}, "VEC2")}};
+        if (hasNormals) attributes["NORMAL"] = model.add<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+        if (hasTangents)
+            attributes["TANGENT"] = model.add<float>({0, 1, 0, side, 0, 1, 0, side, 0, 1, 0, side}, "VEC4");
+        model.json["meshes"] = {{{"primitives", {{{"attributes", attributes}}}}}};
+        model.json["nodes"] = {node};
+        writeScene(model.glb(), "model.glb");
+        return normalSeen(lookingDown({{"texture", "tilt.png"}}, {{"type", "mesh"}, {"file", "model.glb"}}));
+    };
+    const json as = {{"mesh", 0}}, mirrored = {{"mesh", 0}, {"scale", {-1, 1, 1}}};
+    const glm::dvec3 turned{-value.y, value.x, value.z}, other{value.y, value.x, value.z};
+    expectNear(seen(1, as, true, false), value, "coordinates");
+    expectNear(seen(1, as), turned, "tangents");
+    expectNear(seen(-1, as), other, "of another side");
+    expectNear(seen(1, mirrored), other, "mirrored");
+    expectNear(seen(-1, mirrored), turned, "of another side, mirrored");
+    expectNear(seen(1, as, false), value, "without normals");
 }
 
 // A white ball of strong facets vanishes before a white sky.

@@ -115,7 +115,7 @@ double meanOf(const Scene& scene, uint integrator, uint layer) {
     Settings settings = small(scene);
     settings.integrator = integrator;
     settings.layers = 1u << layer;
-    settings.photons = 500'000;
+    settings.photons = settings.causticPhotons = 500'000;
     settings.radius = 0.2f;
     return layerMean(renderPasses(scene, settings, 4).pixels, layer);
 }
@@ -161,6 +161,60 @@ TEST(TexturedPictures, LayersBehindSheetsAgreeWithThePathTracer) {
                                {"edges", {{1.5, 0, 0}, {0, 0, -1.2}}},
                                {"material", "sheet"}});
     expectAgreement(loadJson(scene), 16, 32);
+}
+
+json standardWith(const json& color, const json& transmission, double roughness, double metallic = 0) {
+    return {{"type", "standard"},
+            {"baseColor", color},
+            {"metallic", metallic},
+            {"roughness", roughness},
+            {"transmission", transmission}};
+}
+
+// Glass in part: a rough ball of patches, half of it metal, and a sheet of smooth ones before it.
+TEST(TexturedPictures, LayersOfWhatTransmitsAPartAgreeWithThePathTracer) {
+    SKIP_UNLESS_DRAWN(1);
+    writeScene(pngBytes(8, 8, patches()), "patches.png");
+    json scene = box({{"type", "diffuse"}, {"albedo", 0.7}}, {{"type", "diffuse"}, {"albedo", 0.8}},
+                     standardWith({0.9, 0.5, 0.3}, {{"texture", "patches.png"}}, 0.4, 0.5)),
+         sheet = standardWith({0.9, 0.8, 0.7}, 0.6, 0.02);
+    sheet["thin"] = true;
+    sheet["specular"] = {{"texture", "patches.png"}, {"channel", "r"}};
+    scene["materials"]["sheet"] = sheet;
+    scene["shapes"].push_back({{"type", "rectangle"},
+                               {"corner", {-0.8, -0.2, 0.6}},
+                               {"edges", {{1.5, 0, 0}, {0, 0, -1.2}}},
+                               {"material", "sheet"}});
+    expectAgreement(loadJson(scene), 24, 48);
+}
+
+// A sheet that does not reflect by its surface: what goes through is light of the lamp through glass.
+TEST(TexturedPictures, SheetsTransmitTheirPart) {
+    writeScene(greyPng(128), "half.png");
+    const double half = 128 / 255.0;
+    const double bare = meanOf(sheets(0, {{"type", "diffuse"}, {"albedo", 0}}), INTEGRATOR_PHOTON, LAYER_DIRECT);
+    const json textured = {{"texture", "half.png"}};
+    for (const auto& [transmission, metallic, part] :
+         {std::tuple{json(0.25), json(0), 0.25}, {textured, json(0), half}, {textured, textured, half * (1 - half)}}) {
+        json sheet = standardWith(0.8, transmission, 0);
+        sheet.update({{"metallic", metallic}, {"specular", 0}, {"ior", 1}, {"thin", true}});
+        EXPECT_NEAR(meanOf(sheets(1, sheet), INTEGRATOR_LIGHT, LAYER_CAUSTIC) / bare, 0.8 * part, 0.003) << sheet;
+    }
+}
+
+// White balls that transmit a part vanish before a white sky.
+TEST(TexturedPictures, WhatTransmitsAPartLosesNothing) {
+    SKIP_UNLESS_DRAWN(0);
+    for (json material : {standardWith(1, 0.4, 0.01), standardWith(1, 0.7, 0.01, 0.5), standardWith(1, 0.5, 0.01)}) {
+        if (material["transmission"] == 0.5) material["thin"] = true;
+        const Scene scene =
+            loadJson({{"camera", {{"origin", {0, 0, 3}}, {"target", {0, 0, 0}}, {"fieldOfView", 30}}},
+                      {"environment", {{"radiance", 1}}},
+                      {"materials", {{"m", material}}},
+                      {"shapes", {{{"type", "sphere"}, {"radius", 1}, {"center", {0, 0, 0}}, {"material", "m"}}}}});
+        const double mean = layerMean(renderPasses(scene, small(scene), 32).pixels, LAYER_COUNT);
+        EXPECT_NEAR(mean, 1, 5e-3) << material;
+    }
 }
 
 // What photons of a screen bring to a floor is what light samples do.

@@ -162,6 +162,39 @@ TEST(Textures, NumbersChooseRowsOfRoughness) {
     EXPECT_EQ(scene.materials[scene.primitives[0].material].kind, MATERIAL_MIRROR);
 }
 
+// Of a texel of .2, .4, .6, .8: which of a standard material and glass is there is a choice by the ray.
+TEST(Textures, StandardMaterialsTransmitAndReflectByTheirs) {
+    writeScene(pngBytes<unsigned char>(1, 1, {51, 102, 153, 204}), "four.png");
+    const json texture = {{"texture", "four.png"}};
+    const Scene scene =
+        loadJson(sceneOfMaterial({{"type", "standard"},
+                                  {"baseColor", {0.1, 0.2, 0.3}},
+                                  {"metallic", texture},
+                                  {"roughness", 0.5},
+                                  {"transmission", texture},
+                                  {"specular", texture},
+                                  {"specularColor", {{"texture", "four.png"}, {"space", "linear"}, {"factor", 100}}}}));
+    std::vector<Path> paths;
+    for (uint i = 0; i < 4000; i++)
+        paths.push_back({{0, 0, 1}, glm::normalize(vec3{float(i) / 4000, 0, -1}), vec3{1}, 0, NONE, 0, 0});
+    uint glass = 0;
+    for (const Material& m : materialsAt(scene, 0, std::vector<vec2>(paths.size(), vec2{0.25f}), paths)) {
+        glass += m.kind == MATERIAL_ROUGH_GLASS;
+        EXPECT_EQ(m.color, vec3(0.1f, 0.2f, 0.3f));
+        EXPECT_EQ(m.alpha, 0.25f);
+        if (m.kind != MATERIAL_STANDARD) continue;
+        EXPECT_NEAR(m.transmission, 0.2 * 0.4, 1e-6);
+        EXPECT_NEAR(m.metallic, 0.6 / 0.92, 1e-6);
+        EXPECT_NEAR(m.grazing, 0.8, 1e-6);
+        EXPECT_NEAR(m.normalIncidence.x, 0.8 * 0.04 * 100 * 0.2, 1e-6);
+        EXPECT_NEAR(m.normalIncidence.z, 0.8, 1e-6); // at most all
+    }
+    EXPECT_NEAR(glass, 320, 4 * std::sqrt(320 * 0.92));
+    const json wrong = {{"type", "standard"}, {"transmission", 0.5}};
+    EXPECT_THAT(errorOf(writeScene(sceneOfMaterial(wrong).dump(), "wrong.json")),
+                HasSubstr("/materials/textured/transmission: found a transmission of what is all metal"));
+}
+
 const char* const quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.5 0\nvt 0.5 0.25\nvt 0\n";
 
 TEST(Textures, MeshesHaveCoordinates) {
@@ -343,6 +376,28 @@ TEST(Textures, ModelsHaveTheirs) {
     EXPECT_EQ(scene.textured.sets, 2u);
     ASSERT_EQ(scene.textured.materials.size(), 1u);
     EXPECT_EQ(scene.textured.textures[scene.textured.materials[0].normal].factor, vec3(0.5f, 0.5f, 1));
+    file["materials"].push_back(json::parse(R"({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+        "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 1}},
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularTexture": {"index": 1},
+                                   "specularColorFactor": [1, 2, 3], "specularColorTexture": {"index": 1, "texCoord": 1}}}})"));
+    primitive["material"] = 1;
+    scene = load();
+    const auto& slots = scene.textured.materials[0];
+    const auto& textures = scene.textured.textures;
+    EXPECT_EQ(textures[slots.transmission].factor, vec3(0.5f));
+    EXPECT_EQ(textures[slots.transmission].channel, 0u);
+    EXPECT_EQ(textures[slots.specular].factor, vec3(0.5f));
+    EXPECT_EQ(textures[slots.specular].channel, 3u);
+    EXPECT_NEAR(textures[slots.specularColor].factor.z, 0.12, 1e-6);
+    EXPECT_EQ(scene.textured.images[textures[slots.specularColor].image].format, TEXELS_SRGB);
+    EXPECT_EQ(scene.textured.images[textures[slots.specular].image].format, TEXELS_LINEAR);
+    file["materials"][1] = json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "specularFactor": [0.5, 0.25, 1], "specularGlossinessTexture": {"index": 1}}}})");
+    scene = load();
+    const Texture& older = scene.textured.textures[scene.textured.materials[0].specularColor];
+    EXPECT_EQ(older.factor, vec3(0.5f, 0.25f, 1));
+    primitive["material"] = 0;
+
     file["materials"][0]["emissiveTexture"]["index"] = 2;
     EXPECT_THAT(load().warnings, testing::Contains(HasSubstr("neither PNG nor JPEG (KTX2, WebP) are left out")));
     file["materials"][0]["emissiveTexture"]["index"] = 3;

@@ -75,6 +75,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
     has("hasTouching", f.hasTouching, "faces of glass that lie on each other");
     has("hasTextures", f.hasTextures, "textures");
     has("hasNormalMaps", f.hasNormalMaps, "normal maps");
+    has("hasMixed", f.hasMixed, "surfaces that transmit a part");
     has("hasOpacity", f.hasOpacity, "surfaces that are not opaque");
     has("hasEmissionTextures", f.hasEmissionTextures, "emission by a texture");
     has("hasTint", f.hasTint, "tinted glass");

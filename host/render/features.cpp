@@ -70,8 +70,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
         return features;
     }
     const auto anyMaterial = [&](auto&& is) {
-        return std::ranges::any_of(scene.primitives,
-                                   [&](const Primitive& p) { return is(scene.materials[p.material]); });
+        return std::ranges::any_of(scene.primitives, [&](const Primitive& p) {
+            const Material& m = scene.materials[p.material];
+            return is(m) || (m.base != 0 && is(scene.materials[m.base - 1]));
+        });
     };
     const auto anyLight = [&](auto&& is) { return std::ranges::any_of(scene.lights, is); };
     features.hasTriangles = scene.triangleCount > 0;
@@ -81,7 +83,10 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
         return p.normals != NONE && scene.materials[p.material].kind == MATERIAL_DIFFUSE;
     });
     features.materialKinds = features.lightKinds = 0;
-    for (const Primitive& p : scene.primitives) features.materialKinds |= 1u << scene.materials[p.material].kind;
+    (void)anyMaterial([&](const Material& m) {
+        features.materialKinds |= 1u << m.kind;
+        return false;
+    });
     for (const Light& light : scene.lights) {
         features.lightKinds |= 1u << light.kind;
         if (light.kind == LIGHT_SPHERE && light.v != vec3{0}) features.lightKinds |= 1u << LIGHT_SPOT; // has its beam
@@ -104,6 +109,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
         [&](const Material& m) { return m.textures != 0 && scene.textured.materials[m.textures - 1].normal != NONE; });
     features.hasSmoothNormals |= features.hasNormalMaps;
     features.hasSmoothDiffuse |= features.hasNormalMaps;
+    features.hasMixed = anyMaterial([](const Material& m) { return m.base != 0; });
     features.hasOpacity = anyMaterial([](const Material& m) { return m.seeThrough > 0; });
     features.hasEmissionTextures = anyLight([](const Light& light) { return light.texture != 0; });
     features.hasManyLights = scene.lights.size() > 1;

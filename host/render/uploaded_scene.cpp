@@ -40,6 +40,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
       texels(uploaded(gpu, "scene texels", scene.textured.texels)),
       coordinates(uploaded(gpu, "scene texture coordinates", scene.textured.coordinates)),
       colors(uploaded(gpu, "scene vertex colours", scene.textured.colors)),
+      tangents(uploaded(gpu, "scene tangents", scene.textured.tangents)),
       missing(uploaded(gpu, "scene missing", std::vector<uint>{0, 0})),
       overflows(uploaded(gpu, "scene media overflows", std::vector<uint>{0})) {
     if (!scene.skyTexels.empty()) {
@@ -70,6 +71,7 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
               .texels = texels,
               .coordinates = coordinates,
               .colors = colors,
+              .tangents = tangents,
               .missing = missing,
               .overflows = overflows,
               .lit = scene.lit,

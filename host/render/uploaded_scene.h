@@ -55,6 +55,7 @@ private:
     Buffer<uint> texels;
     Buffer<TexturePlaces> coordinates;
     Buffer<VertexColors> colors;
+    Buffer<Tangents> tangents;
     Buffer<uint> missing;
     Buffer<uint> overflows;
 };

@@ -70,7 +70,11 @@ GltfAccessor::GltfAccessor(GltfFile& file, const Reader& index, std::string_view
 
     const std::size_t bytes = componentBytes(component) * static_cast<std::size_t>(components);
     if (place.find("bufferView")) dense = layoutOf(file, place, bytes, size);
-    else if (size > file.size())
+    else if (const std::string* elements = file.given(index)) {
+        dense = {*elements, bytes};
+        if (elements->size() < bytes * size)
+            countReader.fail(fmt::format("found {} elements", size), "another primitive has fewer of them packed");
+    } else if (size > file.size())
         countReader.fail(fmt::format("found {} elements in no buffer", size),
                          "allowed are as many as the file has bytes");
     if (const auto sparse = place.find("sparse")) readSparse(file, *sparse, bytes);

@@ -1,5 +1,6 @@
 /// The containers of glTF: .glb chunks, buffers in files and in data URIs.
 #include "scene/gltf_file.h"
+#include "scene/gltf_compression.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <array>
@@ -12,10 +13,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t maxGltfText = 256ull << 20;
-constexpr std::string_view decompressAdvice = "write it without: npx @gltf-transform/cli copy in.glb out.glb";
 
 /// What of glTF's extensions may be required: vkpm reads them, or says what it leaves out.
 constexpr std::array knownExtensions{"EXT_mesh_gpu_instancing",
+                                     "EXT_meshopt_compression",
+                                     "KHR_meshopt_compression",
+                                     "KHR_draco_mesh_compression",
                                      "KHR_lights_punctual",
                                      "KHR_materials_anisotropy",
                                      "KHR_materials_clearcoat",
@@ -108,8 +111,8 @@ bool isGltfName(const fs::path& file) {
     return end == ".gltf" || end == ".glb";
 }
 
-GltfFile::GltfFile(fs::path path) : file{std::move(path)}, read{file} {
-    whole = readBytes(file, maxMeshBytes, "cut it into several");
+GltfFile::GltfFile(fs::path path) : file{std::move(path)} {
+    whole = readBytes(file, maxMeshBytes, "cut it into several", &read.emplace_back());
     bytesRead = whole.size();
     if (whole.starts_with("glTF")) openBinary();
     if (whole.size() > maxGltfText)
@@ -159,8 +162,6 @@ void GltfFile::requireExtensions() const {
     for (std::size_t i = 0; required && i < required->count(0, 1000, "an array of names"); ++i) {
         const std::string name = required->element(i).text();
         const std::string found = fmt::format("the file requires the extension \"{}\"", printable(name, 60));
-        if (name == "KHR_draco_mesh_compression" || name.ends_with("_meshopt_compression"))
-            required->element(i).fail(found + ", by which its meshes are compressed", decompressAdvice);
         if (!isKnownExtension(name)) required->element(i).fail(found, "vkpm has not got it; write the file without");
     }
 }
@@ -172,17 +173,32 @@ Reader GltfFile::referenced(const Reader& index, std::string_view list) const {
     return all->element(index.integer(0, static_cast<uint>(count - 1)));
 }
 
-GltfView GltfFile::view(const Reader& index) {
-    Reader place = referenced(index, "bufferViews");
+/// What an object with "buffer", "byteOffset" and "byteLength" refers to.
+std::string_view GltfFile::bytesOf(Reader place) {
     const std::string& bytes = buffer(place.at("buffer"));
-    const auto offset = place.find("byteOffset"), stride = place.find("byteStride");
+    const auto offset = place.find("byteOffset");
     const std::uint64_t begin = offset ? offset->integer(0, NONE) : 0, length = place.at("byteLength").integer(1, NONE);
     if (begin + length > bytes.size())
         place.fail(fmt::format("found bytes {} to {} of a buffer", begin, begin + length),
                    fmt::format("it has {}", bytes.size()));
-    GltfView view{place, std::string_view{bytes}.substr(begin, length), std::nullopt};
-    if (stride) view.stride = stride->integer(1, 65536);
+    return std::string_view{bytes}.substr(begin, length);
+}
+
+GltfView GltfFile::view(const Reader& index) {
+    Reader place = referenced(index, "bufferViews");
+    GltfView view{place, {}, std::nullopt};
+    if (const auto packed = meshoptOf(place)) {
+        const uint number = index.integer(0, NONE);
+        if (!unpackedViews.contains(number)) unpackedViews[number] = unpackMeshopt(*packed, bytesOf(*packed));
+        view.bytes = unpackedViews[number];
+    } else view.bytes = bytesOf(place);
+    if (const auto stride = place.find("byteStride")) view.stride = stride->integer(1, 65536);
     return view;
+}
+
+const std::string* GltfFile::given(const Reader& accessor) const {
+    const auto found = unpacked.find(accessor.integer(0, NONE));
+    return found == unpacked.end() ? nullptr : &found->second;
 }
 
 const std::string& GltfFile::buffer(const Reader& index) {
@@ -232,8 +248,7 @@ std::string GltfFile::loadFile(const Reader& uri, const std::string& text) {
     const fs::path path = file.parent_path() / name;
     if (const std::string problem = fileProblem(path, true); !problem.empty())
         uri.fail(fmt::format("{}: {}", path.string(), problem), "give a file, relative to this one");
-    if (std::ranges::find(read, path) == read.end()) read.push_back(path);
-    std::string bytes = readBytes(path, maxMeshBytes, "cut it into several");
+    std::string bytes = readBytes(path, maxMeshBytes, "cut it into several", &read.emplace_back());
     bytesRead += bytes.size();
     return bytes;
 }

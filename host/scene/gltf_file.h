@@ -1,7 +1,9 @@
 /// A glTF 2.0 file (Khronos 2021), .gltf or .glb: its JSON, and the buffers that it names.
 #pragma once
 #include "scene/reader.h"
+#include "scene/text.h"
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,17 +29,23 @@ public:
     /// The element of a list at the top, such as "accessors", that an index refers to.
     Reader referenced(const Reader& index, std::string_view list) const;
     GltfView view(const Reader& index);
+    /// Elements of an accessor, one behind the other, that its file has packed; and what was given of it, or null.
+    void give(const Reader& accessor, std::string elements) {
+        unpacked[accessor.integer(0, NONE)] = std::move(elements);
+    }
+    const std::string* given(const Reader& accessor) const;
     /// The bytes of an element of "images".
     std::string image(Reader& place);
     const std::filesystem::path& name() const { return file; }
 
-    const std::vector<std::filesystem::path>& files() const { return read; }
+    const std::vector<FileRead>& files() const { return read; }
     std::uint64_t size() const { return bytesRead; } // of all that was read so far
 
 private:
     void openBinary();
     void requireExtensions() const;
     const std::string& buffer(const Reader& index);
+    std::string_view bytesOf(Reader place);
     std::string loadBuffer(Reader place, std::size_t number);
     std::string loadUri(const Reader& uri);
     std::string loadFile(const Reader& uri, const std::string& text);
@@ -47,7 +55,8 @@ private:
     std::optional<std::string> binary; // the second chunk of a .glb
     nlohmann::json json;
     std::vector<std::optional<std::string>> buffers;
-    std::vector<std::filesystem::path> read;
+    std::map<uint, std::string> unpackedViews, unpacked; // of views and accessors by their indices
+    std::vector<FileRead> read;
     std::uint64_t bytesRead = 0;
 };
 

@@ -33,19 +33,20 @@ public:
         auto transmissionOf = extension("KHR_materials_transmission"), iorOf = extension("KHR_materials_ior"),
              volume = extension("KHR_materials_volume");
         transmission = numberOr(transmissionOf, "transmissionFactor", 0, fraction);
+        transmissionTexture = textureOf(transmissionOf, "transmissionTexture", false);
         ior = numberOr(iorOf, "ior", 1.5f, {0, 1000});
         auto specularOf = extension("KHR_materials_specular");
         specular = numberOr(specularOf, "specularFactor", 1, fraction);
         specularColor = colorOr(specularOf, "specularColorFactor", notNegative);
+        specularTexture = textureOf(specularOf, "specularTexture", false);
+        specularColorTexture = textureOf(specularOf, "specularColorTexture", true);
         thickness = numberOr(volume, "thicknessFactor", 0, notNegative);
         attenuationColor = colorOr(volume, "attenuationColor", fraction);
         attenuationDistance = numberOr(volume, "attenuationDistance", 0, positive);
         auto dispersionOf = extension("KHR_materials_dispersion");
         dispersion = numberOr(dispersionOf, "dispersion", 0, notNegative);
-        if (const auto info = pbr ? pbr->find("baseColorTexture") : std::nullopt)
-            baseTexture = textures.read(*info, true);
-        if (const auto info = pbr ? pbr->find("metallicRoughnessTexture") : std::nullopt)
-            roughnessTexture = textures.read(*info, false);
+        baseTexture = textureOf(pbr, "baseColorTexture", true);
+        roughnessTexture = textureOf(pbr, "metallicRoughnessTexture", false);
         readSpecularGlossiness();
         readOpacity();
         noteLosses();
@@ -77,11 +78,13 @@ public:
                     {"metallic", withFactor(roughnessTexture, metallic)},
                     {"roughness", withFactor(roughnessTexture, roughness)}};
         if (ior != 1.5f) result["ior"] = ior;
-        if (specular != 1) result["specular"] = specular;
-        if (specularColor != vec3{1}) result["specularColor"] = listOf(specularColor);
+        if (specular != 1 || specularTexture) result["specular"] = withFactor(specularTexture, specular);
+        if (specularColor != vec3{1} || specularColorTexture)
+            result["specularColor"] = withFactor(specularColorTexture, listOf(specularColor));
         return result;
     }
 
+    /// Glass, or a material that transmits a part.
     json transparent(GltfGlass glass) {
         const bool isThin = glass == GltfGlass::thin && thickness == 0;
         if (!isThin && thickness == 0 && glass == GltfGlass::automatic)
@@ -89,6 +92,14 @@ public:
                  "\"import\" "
                  "takes it for panes");
         if (!(ior >= 1e-3f && ior <= 1e3f)) lose("an index of refraction beyond 0.001 to 1000 becomes 1.5"), ior = 1.5f;
+        if (transmission < 1 || transmissionTexture || metallic > 0) {
+            json result = opaque();
+            result["transmission"] = withFactor(transmissionTexture, transmission);
+            fill(result, isThin);
+            return result;
+        }
+        if (specular != 1 || specularTexture || specularColor != vec3{1} || specularColorTexture)
+            lose("KHR_materials_specular of glass is left out");
         json result{{"type", "glass"}, {"ior", ior}, {"tint", listOf(base)}};
         if (baseTexture) // of which a standard material may be made
             result = {{"type", "standard"},
@@ -131,24 +142,35 @@ public:
         const auto twoSided = material.find("doubleSided");
         return twoSided && twoSided->boolean();
     }
-    bool isGlass() const { return transmission >= 0.5f && metallic < 0.5f; }
+    bool transmits() const { return transmission > 0 && (metallic < 1 || roughnessTexture); }
+    void loseTransmission() {
+        if (transmits()) lose("the transmission of what emits is left out");
+    }
 
 private:
     std::optional<Reader> extension(std::string_view name) {
         return extensions ? extensions->find(name) : std::nullopt;
     }
     void lose(std::string_view what) { losses.add(material, what); }
+    std::optional<json> textureOf(std::optional<Reader>& object, std::string_view key, bool isColor) {
+        const auto info = object ? object->find(key) : std::nullopt;
+        return info ? textures.read(*info, isColor) : std::nullopt;
+    }
 
     /// The model of before 2021. An index of 0 stands for a reflectance that its colour says alone (KHR_materials_ior).
     void readSpecularGlossiness() {
         auto older = extension("KHR_materials_pbrSpecularGlossiness");
         if (!older) return;
+        base = vec3{1}; // in place of what the newer model says
+        alpha = 1;
+        baseTexture = roughnessTexture = std::nullopt;
         metallic = ior = 0;
         roughness = 1 - numberOr(older, "glossinessFactor", 1, fraction);
         specularColor = colorOr(older, "specularFactor", fraction);
         if (const auto color = older->find("diffuseFactor")) base = readBase(*color);
         if (const auto info = older->find("diffuseTexture")) baseTexture = textures.read(*info, true);
-        if (older->find("specularGlossinessTexture")) lose("a texture of specular colour and gloss is left out");
+        specularColorTexture = textureOf(older, "specularGlossinessTexture", true);
+        if (specularColorTexture) lose("the gloss of a texture of specular colour and gloss is left out");
     }
 
     vec3 readBase(const Reader& color) {
@@ -167,20 +189,19 @@ private:
     void readOpacity() {
         const auto mode = material.find("alphaMode"), threshold = material.find("alphaCutoff");
         const std::size_t kind = mode ? mode->choice({"OPAQUE", "MASK", "BLEND"}) : 0;
-        if (kind == 0 || (!baseTexture && alpha == 1)) return;
+        if (kind == 0 || (kind == 2 && !baseTexture && alpha == 1)) return;
         opacity = withFactor(baseTexture, alpha);
         if (baseTexture) opacity["channel"] = "a";
-        if (kind == 1) cutoff = std::min(threshold ? threshold->number(notNegative) : 0.5f, 1.0f);
+        if (kind == 1) cutoff = threshold ? threshold->number(notNegative) : 0.5f;
+        if (cutoff > 1.0f) { // nothing is as opaque
+            opacity = 0;
+            cutoff.reset();
+        }
     }
 
     void noteLosses() {
-        for (const auto& [name, texture] : {std::pair{"transmission", "transmissionTexture"},
-                                            {"volume", "thicknessTexture"},
-                                            {"specular", "specularTexture"},
-                                            {"specular", "specularColorTexture"}})
-            if (auto object = extension(fmt::format("KHR_materials_{}", name)); object && object->find(texture))
-                lose(fmt::format("\"{}\" is left out", texture));
-        if (transmission > 0 && transmission < 0.5f) lose("a transmission below 0.5 is left out");
+        if (auto volume = extension("KHR_materials_volume"); volume && volume->find("thicknessTexture"))
+            lose("\"thicknessTexture\" is left out: glass is as thick as its mesh");
         for (const char* name : {"anisotropy", "clearcoat", "diffuse_transmission", "iridescence", "sheen", "unlit"})
             if (extension(fmt::format("KHR_materials_{}", name)))
                 lose(fmt::format("KHR_materials_{} is left out", name));
@@ -189,7 +210,7 @@ private:
     Reader material;
     GltfTextures textures;
     Losses& losses;
-    std::optional<json> baseTexture, roughnessTexture;
+    std::optional<json> baseTexture, roughnessTexture, transmissionTexture, specularTexture, specularColorTexture;
     json opacity;
     std::optional<float> cutoff;
     float alpha = 1;
@@ -208,9 +229,9 @@ GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, GltfTextures tex
     GltfMaterial result{.radiance = surface.readEmission(), .twoSided = surface.isTwoSided()};
     const bool emits = result.radiance != vec3{0}; // glass may not, nor what is not opaque
     result.emission = surface.emissionTexture(result.radiance);
-    result.material = surface.isGlass() && !emits ? surface.transparent(glass) : surface.opaque();
+    result.material = surface.transmits() && !emits ? surface.transparent(glass) : surface.opaque();
     surface.addNormalMap(result.material);
-    if (emits) surface.loseOpacity();
+    if (emits) surface.loseOpacity(), surface.loseTransmission();
     else surface.addOpacity(result.material);
     return result;
 }

@@ -1,6 +1,7 @@
 /// Reading of primitives, corner by corner, and of a whole file as one mesh.
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_compression.h"
 #include "scene/gltf_nodes.h"
 #include "scene/transform.h"
 #include <algorithm>
@@ -33,6 +34,7 @@ public:
             return {};
         }
         noteLosses();
+        unpackDraco(file, place);
         positions.emplace(file, *position, "VEC3");
         if (normal) normals.emplace(file, *normal, "VEC3");
         if (normals && normals->count() != positions->count())
@@ -49,8 +51,16 @@ public:
             const std::string type{
                 file.referenced(*given, "accessors").at("type").choice({"VEC3", "VEC4"}) == 0 ? "VEC3" : "VEC4"};
             colors.emplace(file, *given, type);
+            hasOpacity = type == "VEC4";
             if (colors->count() != positions->count())
                 given->fail(fmt::format("found {} colours", colors->count()),
+                            fmt::format("there are {} positions", positions->count()));
+        }
+        // Without normals they do not count (section 3.7.2.1).
+        if (const auto given = normal ? attributes.find("TANGENT") : std::nullopt) {
+            tangents.emplace(file, *given, "VEC4");
+            if (tangents->count() != positions->count())
+                given->fail(fmt::format("found {} tangents", tangents->count()),
                             fmt::format("there are {} positions", positions->count()));
         }
         if (const auto indices = place.find("indices")) readIndices(*indices);
@@ -102,6 +112,15 @@ private:
                 if (!isSound(color))
                     colors->place().fail(fmt::format("colour {} is not finite", i), "allowed are finite numbers");
                 mesh.colors.emplace_back(glm::clamp(dvec3{color}, 0.0, 1.0));
+                if (hasOpacity && color.w < 1)
+                    losses.add(place, "the opacity of colours of vertices is left out"), hasOpacity = false;
+            }
+            if (tangents) {
+                const dvec4 tangent = tangents->at(i);
+                if (!isSound(tangent) || !std::isfinite(tangent.w))
+                    tangents->place().fail(fmt::format("tangent {} is not finite", i),
+                                           "allowed are four finite numbers");
+                mesh.tangents.emplace_back(tangent);
             }
             if (!normals) continue;
             const dvec4 normal = normals->at(i);
@@ -134,7 +153,8 @@ private:
     Reader place;
     Losses& losses;
     uint mode = TRIANGLES;
-    std::optional<GltfAccessor> positions, normals, colors, coordinates[2];
+    bool hasOpacity = false; // of colours, of which none was found yet
+    std::optional<GltfAccessor> positions, normals, tangents, colors, coordinates[2];
     std::vector<uint> corners;
     IndexedMesh mesh;
 };
@@ -157,6 +177,10 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
             all.colors.push_back(c);
         }
     }
+    if (!part.tangents.empty()) {
+        all.tangents.resize(all.triangles.size());
+        for (const Tangents& t : part.tangents) all.tangents.push_back(transformed(t, transform));
+    }
     for (Mesh::Triangle triangle : part.triangles) {
         for (dvec3& point : triangle.points) point = transform.point(point);
         if (triangle.normals)
@@ -170,6 +194,7 @@ void append(Mesh& all, const Mesh& part, const Transform& transform) {
     for (auto& set : all.coordinates)
         if (!set.empty()) set.resize(all.triangles.size());
     if (!all.colors.empty()) all.colors.resize(all.triangles.size(), white);
+    if (!all.tangents.empty()) all.tangents.resize(all.triangles.size());
 }
 
 } // namespace

@@ -58,6 +58,7 @@ std::string sceneHash(const Scene& scene) {
         hash.add(scene.textured.texels);
         hash.add(scene.textured.coordinates);
         hash.add(scene.textured.colors);
+        if (!scene.textured.tangents.empty()) hash.add(scene.textured.tangents);
     }
     return hash.text();
 }

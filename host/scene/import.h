@@ -48,7 +48,7 @@ public:
     /// Says that a white sky lights the whole.
     void loseLight() { losses.add(file->root(), "no light: a white sky of radiance 1 lights the whole"); }
 
-    const std::vector<std::filesystem::path>& files() const { return file->files(); }
+    const std::vector<FileRead>& files() const { return file->files(); }
     void lose(const Reader& where, std::string_view what) { losses.add(where, what); }
     void tellLosses(std::vector<std::string>& warnings) const { losses.tell(warnings); }
 

@@ -20,6 +20,7 @@ struct IndexedMesh {
     std::map<std::size_t, std::string> wrongNormals; // those that are not finite: where they stand, such as ":12"
     std::vector<vec2> coordinates[2];                // sets with the same indices; v goes up
     std::vector<vec3> colors;                        // of all vertices, linear, within [0, 1]; or empty
+    std::vector<vec4> tangents;                      // of all vertices, with the sign of the direction of v; or empty
     std::vector<std::array<Corner, 3>> triangles;
     std::vector<std::string> materials;   // that faces use, in the order of their first use
     std::vector<uint> materialOfTriangle; // index into `materials`; empty if there are none

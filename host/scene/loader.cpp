@@ -110,8 +110,9 @@ static_assert(DENSITY_KERNEL_CONSTANT == 0 && DENSITY_KERNEL_CONE == 1 && DENSIT
 std::map<std::string, uint> readMaterials(Reader reader, Scene& scene, Textures& textures) {
     std::map<std::string, uint> indices;
     for (const std::string& name : reader.keys()) {
+        const Material material = readMaterial(reader.at(name), textures);
         indices[name] = static_cast<uint>(scene.materials.size());
-        scene.materials.push_back(readMaterial(reader.at(name), textures));
+        scene.materials.push_back(material);
     }
     return indices;
 }
@@ -144,13 +145,14 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
                                      const std::map<std::string, uint>& ofScene) {
     const GltfMaterial imported = import.material(part.material, textures);
     const auto own = ofScene.find(import.materialName(part.material));
-    ShapeLoader::Surface surface{own != ofScene.end() ? own->second : static_cast<uint>(scene.materials.size()),
-                                 imported.radiance, imported.twoSided};
+    ShapeLoader::Surface surface{own != ofScene.end() ? own->second : NONE, imported.radiance, imported.twoSided};
     if (!imported.emission.is_null())
         surface.radiance =
             textures.color(Reader{scene.files.front(), imported.emission}, notNegative, surface.emission);
     if (own == ofScene.end()) {
-        scene.materials.push_back(readMaterial(Reader{scene.files.front(), imported.material}, textures));
+        const Material material = readMaterial(Reader{scene.files.front(), imported.material}, textures);
+        surface.material = static_cast<uint>(scene.materials.size());
+        scene.materials.push_back(material);
     } else if (const Material& its = scene.materials[surface.material];
                surface.radiance != vec3{0} && (!mayEmit(its) || its.seeThrough > 0)) {
         import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
@@ -232,15 +234,6 @@ void readScene(Reader root, Scene& scene) {
     loader.finish();
 }
 
-/// Hashes of files but the first, for those who ask later what has changed.
-void hashFiles(Scene& scene) {
-    for (std::size_t i = 1; i < scene.files.size(); ++i) {
-        const auto name = scene.files[i].lexically_relative(scene.files.front().parent_path());
-        scene.fileHashes[(name.empty() ? scene.files[i] : name).generic_string()] =
-            hashText(readBytes(scene.files[i], maxMeshBytes, ""));
-    }
-}
-
 } // namespace
 
 Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
@@ -259,7 +252,6 @@ Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
     const nlohmann::json json = parseJson(file, scene.text);
     readScene(Reader{file, json}, scene);
     checkExtent(scene, file);
-    hashFiles(scene);
     scene.lit = sphereOfLit(scene);
     measureEndless(scene);
     chooseLights(scene, file);

@@ -107,30 +107,48 @@ Material readPlastic(Reader& reader, Textures& textures, MaterialTextures& slots
     return material;
 }
 
+/// Reflectances of a coat at normal incidence and at grazing incidence, by its index and KHR_materials_specular, whose
+/// number is in the alpha of a texture. Where one of them is a texture, kernels multiply them.
+void readCoat(Reader& reader, Textures& textures, MaterialTextures& slots, Material& material) {
+    const auto specular = reader.find("specular"), color = reader.find("specularColor");
+    material.grazing = specular ? textures.number(*specular, fraction, slots.specular, 3) : 1;
+    const float r = (material.ior - 1) / (material.ior + 1);
+    material.normalIncidence = r * r * (color ? textures.color(*color, notNegative, slots.specularColor) : vec3{1});
+    if (slots.specularColor != NONE)
+        textures.scene.textured.textures[slots.specularColor].factor = material.normalIncidence;
+    if ((slots.specular & slots.specularColor) == NONE)
+        material.normalIncidence = glm::min(material.normalIncidence, vec3{1}) * material.grazing;
+}
+
 /// glTF's metallic-roughness model with its defaults, with KHR_materials_ior, _specular and _transmission. As in glTF,
-/// metal is in the blue of a texture, roughness in the green.
+/// metal is in the blue of a texture, roughness in the green. What transmits a part becomes glass with what stands
+/// beside it, which goes into the scene.
 Material readStandard(Reader& reader, Textures& textures, MaterialTextures& slots) {
-    const auto color = reader.find("baseColor"), specularColor = reader.find("specularColor"),
-               transmissionReader = reader.find("transmission"), metallicReader = reader.find("metallic");
+    const auto color = reader.find("baseColor"), transmissionReader = reader.find("transmission"),
+               metallicReader = reader.find("metallic");
     Material material{MATERIAL_STANDARD, color ? textures.color(*color, fraction, slots.color) : vec3{1}};
     material.metallic = metallicReader ? textures.number(*metallicReader, fraction, slots.metallic, 2) : 1;
     const float roughness = readRoughness(reader, 1, textures, slots.roughness, 1);
     material.ior = numberOr(reader, "ior", 1.5f, {0, 1000});
-    material.grazing = numberOr(reader, "specular", 1, fraction);
-    const float r = (material.ior - 1) / (material.ior + 1);
-    const vec3 specular = specularColor ? specularColor->color(notNegative) : vec3{1};
-    material.normalIncidence = glm::min(r * r * specular, vec3{1}) * material.grazing;
+    readCoat(reader, textures, slots, material);
+    material.transmission = transmissionReader ? textures.number(*transmissionReader, fraction, slots.transmission) : 0;
 
-    const float transmission = transmissionReader ? transmissionReader->number(fraction) : 0;
-    if (transmission > 0 && (transmission < 1 || material.metallic > 0))
-        transmissionReader->fail(
-            fmt::format("found {} of a material whose \"metallic\" is {}", transmission, material.metallic),
-            "allowed is 0, or 1 where \"metallic\" is 0");
-    if (transmission > 0)
-        material = readGlass(reader, textures.scene, material.color, std::max(material.ior, 1e-3f), 1, roughness);
-    else if (material.grazing == 0 && material.metallic == 0) material = {MATERIAL_DIFFUSE, material.color, 1};
-    else setRoughness(material, roughness, slots.roughness != NONE, textures, standardRows);
-    return material;
+    const bool transmits = material.transmission > 0, isMetal = material.metallic == 1 && slots.metallic == NONE,
+               isWhole =
+                   transmits && material.transmission == 1 && slots.transmission == NONE && material.metallic == 0;
+    if (transmits && isMetal)
+        transmissionReader->fail("found a transmission of what is all metal",
+                                 "allowed where \"metallic\" is below 1, as 0 is; it is 1 if it is absent");
+    if (!isWhole && material.grazing == 0 && material.metallic == 0 && !transmits)
+        return {MATERIAL_DIFFUSE, material.color, 1};
+    if (!isWhole) setRoughness(material, roughness, slots.roughness != NONE, textures, standardRows);
+    if (!transmits) return material;
+    Material glass = readGlass(reader, textures.scene, material.color, std::max(material.ior, 1e-3f), 1, roughness);
+    if (!isWhole) {
+        textures.scene.materials.push_back(material);
+        glass.base = static_cast<uint>(textures.scene.materials.size());
+    }
+    return glass;
 }
 
 /// The part of what meets a surface that it stops. What nothing goes through is opaque.
@@ -169,6 +187,13 @@ Material readMaterial(Reader reader, Textures& textures) {
     readOpacity(reader, material, textures, slots);
     material.textures = textures.place(slots);
     reader.finish();
+    if (material.base != 0) {
+        Material& base = textures.scene.materials[material.base - 1];
+        base.wide = material.wide;
+        base.textures = material.textures;
+        base.seeThrough = material.seeThrough;
+        base.cutoff = material.cutoff;
+    }
     return material;
 }
 

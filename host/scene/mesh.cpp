@@ -56,6 +56,18 @@ std::optional<std::array<vec3, 3>> normalsOf(const std::filesystem::path& file, 
     return normals;
 }
 
+/// Of a triangle whose corners have normals.
+Tangents tangentsOf(const IndexedMesh& from, const Corners& corners, const Mesh::Triangle& triangle) {
+    if (!triangle.normals) return {};
+    const auto& [a, b, c] = corners;
+    const vec4 at[] = {from.tangents[a.vertex], from.tangents[b.vertex], from.tangents[c.vertex]};
+    const dvec3 normal = glm::cross(triangle.points[1] - triangle.points[0], triangle.points[2] - triangle.points[0]);
+    double side = 0; // kernels turn normals to the side of the triangle's
+    for (std::size_t i = 0; i < 3; ++i)
+        side += double{at[i].w} * glm::sign(glm::dot(dvec3{(*triangle.normals)[i]}, normal));
+    return {vec3{at[0]}, vec3{at[1]}, vec3{at[2]}, side < 0 ? -1.0f : 1.0f};
+}
+
 } // namespace
 
 /// What a file is: "PLY", "glTF", another format by its first bytes, or empty if it may be an OBJ file.
@@ -97,7 +109,7 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
     std::vector<dvec3> computed;
     if (smoothness == Smoothness::smooth) computed = angleWeightedNormals(from);
 
-    Mesh mesh{.files = {file}};
+    Mesh mesh;
     if (from.skippedFaces > 0)
         mesh.warnings.push_back(fmt::format("{} faces have fewer than 3 corners and were left out", from.skippedFaces));
     mesh.materials = from.materialOfTriangle;
@@ -120,6 +132,9 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
                 };
                 mesh.coordinates[set].push_back({at(corners[0]), at(corners[1]), at(corners[2])});
             }
+    if (!from.tangents.empty())
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            mesh.tangents.push_back(tangentsOf(from, from.triangles[i], mesh.triangles[i]));
     if (!from.colors.empty())
         for (const Corners& corners : from.triangles)
             mesh.colors.push_back(
@@ -127,15 +142,32 @@ Mesh meshOf(const std::filesystem::path& file, const IndexedMesh& from, Smoothne
     return mesh;
 }
 
+Tangents transformed(const Tangents& tangents, const Transform& transform) {
+    const auto direction = [&](vec3 tangent) {
+        const dvec3 d = transform.direction(dvec3{tangent});
+        const double length = glm::length(d);
+        return length > 0 ? vec3{d / length} : vec3{0};
+    };
+    Tangents result{direction(tangents.a), direction(tangents.b), direction(tangents.c), tangents.side};
+    if (!transform.mirrors()) return result;
+    std::swap(result.b, result.c);
+    result.side = -result.side;
+    return result;
+}
+
 Mesh loadMesh(const std::filesystem::path& file, Smoothness smoothness) {
     const std::string_view format = formatOf(file);
-    const char* const advice = "cut it into several meshes";
-    if (format == "PLY") return meshOf(file, readPly(file, readBytes(file, maxMeshBytes, advice)), smoothness);
     if (format == "glTF") return loadGltfMesh(file, smoothness);
-    if (!format.empty())
+    if (!format.empty() && format != "PLY")
         refuseFile(file, ":1", fmt::format("found {}", format),
                    "allowed is an OBJ, PLY or glTF file, uncompressed; most programs for meshes export them");
-    return meshOf(file, readObj(file, readText(file, maxMeshBytes, advice)), smoothness);
+    const char* const advice = "cut it into several meshes";
+    FileRead read;
+    const IndexedMesh indexed = format == "PLY" ? readPly(file, readBytes(file, maxMeshBytes, advice, &read))
+                                                : readObj(file, readText(file, maxMeshBytes, advice, &read));
+    Mesh mesh = meshOf(file, indexed, smoothness);
+    mesh.files = {read};
+    return mesh;
 }
 
 } // namespace vkpm

@@ -1,6 +1,8 @@
 /// Triangle meshes read from OBJ, PLY and glTF files.
 #pragma once
 #include "scene/indexed_mesh.h"
+#include "scene/text.h"
+#include "scene/transform.h"
 #include "shared_textures.h"
 #include <array>
 #include <filesystem>
@@ -22,11 +24,15 @@ struct Mesh {
     std::vector<Triangle> triangles;
     std::vector<TexturePlaces> coordinates[2]; // sets of these, of all triangles each, or empty
     std::vector<VertexColors> colors;          // of all triangles, or empty
+    std::vector<Tangents> tangents;            // of all triangles with normals, or empty
     std::vector<uint> materials;               // of all triangles: index into `materialNames`; or empty
     std::vector<std::string> materialNames;
     std::vector<std::string> warnings;
-    std::vector<std::filesystem::path> files; // that were read
+    std::vector<FileRead> files; // that were read
 };
+
+/// Tangents of a triangle that a transform moves: its corners b and c change places where it mirrors.
+Tangents transformed(const Tangents& tangents, const Transform& transform);
 
 /// The mesh of an OBJ, PLY or glTF file, whatever its name; polygons are triangulated. Throws InputError with the place
 /// of what is not sound.

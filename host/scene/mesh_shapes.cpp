@@ -128,8 +128,8 @@ void ShapeLoader::requireCoordinates(const Reader& shape, const Mesh& mesh, cons
     if (!isTextured(surface)) return;
     const uint textured = scene.materials[surface.material].textures;
     const MaterialTextures slots = textured != 0 ? scene.textured.materials[textured - 1] : noTextures;
-    for (const uint slot :
-         {slots.color, slots.metallic, slots.roughness, slots.opacity, slots.normal, surface.emission}) {
+    for (const uint slot : {slots.color, slots.metallic, slots.roughness, slots.opacity, slots.normal, slots.specular,
+                            slots.specularColor, slots.transmission, surface.emission}) {
         const uint set = slot == NONE ? 0 : scene.textured.textures[slot].set;
         if (slot == NONE || !mesh.coordinates[set].empty()) continue;
         return shape.warn(scene.warnings, fmt::format("its material has a texture, but the mesh no {} coordinates: all "
@@ -192,6 +192,11 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t
         if (transform.mirrors()) std::swap(colors.b, colors.c);
         scene.textured.colors.resize(scene.primitives.size());
         scene.textured.colors.push_back(colors);
+    }
+    const uint textured = scene.materials[surface.material].textures;
+    if (!mesh.tangents.empty() && textured != 0 && scene.textured.materials[textured - 1].normal != NONE) {
+        scene.textured.tangents.resize(scene.primitives.size());
+        scene.textured.tangents.push_back(transformed(mesh.tangents[index], transform));
     }
     addFlat(shape, primitive);
 }

@@ -6,9 +6,13 @@
 namespace vkpm {
 using glm::dvec3;
 
-void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files) {
-    for (const std::filesystem::path& file : files)
-        if (std::ranges::find(scene.files, file) == scene.files.end()) scene.files.push_back(file);
+void noteFiles(Scene& scene, const std::vector<FileRead>& files) {
+    for (const auto& [file, hash] : files) {
+        if (std::ranges::find(scene.files, file) != scene.files.end()) continue;
+        scene.files.push_back(file);
+        const auto name = file.lexically_relative(scene.files.front().parent_path());
+        scene.fileHashes[(name.empty() ? file : name).generic_string()] = hash;
+    }
 }
 
 Camera pinholeCamera(const View& view, uvec2 size) {

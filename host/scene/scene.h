@@ -3,6 +3,7 @@
 #include "error.h"
 #include "scene/coordinates.h"
 #include "scene/settings.h"
+#include "scene/text.h"
 #include "shared_scene.h"
 #include <filesystem>
 #include <limits>
@@ -53,6 +54,7 @@ struct TextureArrays {
     std::vector<uint> texels;
     std::vector<TexturePlaces> coordinates; // of all triangles, one set after the other
     std::vector<VertexColors> colors;       // of all triangles
+    std::vector<Tangents> tangents;         // likewise
     uint sets = 0;
 };
 
@@ -98,8 +100,8 @@ struct Scene {
 /// InputError. Which label glossy lobes have, by their alpha, changes what is noisy, and no mean.
 Scene loadScene(const std::filesystem::path& file, float wideAlpha = WIDE_ALPHA);
 
-/// Adds files to those that were read, each once.
-void noteFiles(Scene& scene, const std::vector<std::filesystem::path>& files);
+/// Adds files to those that were read, each once, for those who ask later what has changed.
+void noteFiles(Scene& scene, const std::vector<FileRead>& files);
 
 /// The camera of a view for a film of `size` pixels.
 Camera pinholeCamera(const View& view, uvec2 size);

@@ -85,6 +85,7 @@ void ShapeLoader::finish() {
         scene.textured.sets = std::max(scene.textured.sets, texture.set + 1);
     if (coordinates[0].empty()) scene.textured.sets = 0;
     if (!scene.textured.colors.empty()) scene.textured.colors.resize(scene.triangleCount);
+    if (!scene.textured.tangents.empty()) scene.textured.tangents.resize(scene.triangleCount);
     for (uint set = 0; set < scene.textured.sets; set++) {
         coordinates[set].resize(scene.triangleCount);
         scene.textured.coordinates.insert(scene.textured.coordinates.end(), coordinates[set].begin(),
@@ -127,7 +128,8 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape, bool mayLackMateria
 
 void ShapeLoader::requireEmitter(const Reader& place, const Surface& surface) const {
     if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material]))
-        place.fail("found emission on a material that is not diffuse", "only diffuse and standard shapes may emit");
+        place.fail("found emission on a material that is not diffuse",
+                   "only diffuse and standard shapes may emit, which transmit nothing");
     if (surface.radiance != vec3{0} && scene.materials[surface.material].seeThrough > 0)
         place.fail("found emission on a material that is not opaque", "only opaque shapes may emit");
 }

@@ -91,8 +91,10 @@ void addSky(Scene& scene, Raster image, dvec3 strength, bool visible) {
     if (shines) scene.lights.push_back({.radiance = vec3{mean}, .kind = LIGHT_SKY, .share = 1});
 }
 
-Raster decode(const Reader& reader, const std::filesystem::path& file) try {
-    const std::string bytes = readBytes(file, maxImageBytes, "");
+Raster decode(const Reader& reader, const std::filesystem::path& file, Scene& scene) try {
+    FileRead read;
+    const std::string bytes = readBytes(file, maxImageBytes, "", &read);
+    noteFiles(scene, {read});
     Raster image;
     if (isExr(bytes)) image = decodeExr(bytes);
     else if (isHdr(bytes)) image = decodeHdr(bytes);
@@ -109,8 +111,7 @@ Raster readSkyImage(const Reader& reader, Scene& scene) {
     if (const std::string problem = fileProblem(file, true); !problem.empty())
         reader.fail(fmt::format("{}: {}", printable(file.string()), problem),
                     "give an OpenEXR or Radiance file, relative to the scene file");
-    noteFiles(scene, {file});
-    Raster image = decode(reader, file);
+    Raster image = decode(reader, file, scene);
     return image.width < smoothWidth && image.height <= image.width ? smoothed(image) : image;
 }
 

@@ -1,6 +1,7 @@
 /// Reading of text files, and messages about them.
 #include "scene/text.h"
 #include "error.h"
+#include "scene/hash.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -96,12 +97,15 @@ std::string fileProblem(const fs::path& file, bool regular) {
     return "";
 }
 
-std::string readBytes(const fs::path& file, std::uint64_t most, std::string_view advice) {
-    return readPieces(file, most, advice, false);
+std::string readBytes(const fs::path& file, std::uint64_t most, std::string_view advice, FileRead* read) {
+    std::string bytes = readPieces(file, most, advice, false);
+    if (read) *read = {file, hashText(bytes)};
+    return bytes;
 }
 
-std::string readText(const fs::path& file, std::uint64_t most, std::string_view advice) {
+std::string readText(const fs::path& file, std::uint64_t most, std::string_view advice, FileRead* read) {
     std::string text = readPieces(file, most, advice, true);
+    if (read) *read = {file, hashText(text)};
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     return text;
 }

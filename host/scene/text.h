@@ -14,12 +14,20 @@ const std::uint64_t maxMeshBytes = 1ull << 30;
 /// Why a file cannot be read as text; empty if it can. Only a regular file is sure to have an end.
 std::string fileProblem(const std::filesystem::path& file, bool regular = false);
 
-/// The contents of a file as they are. Throws InputError if there is more of it than `most` bytes, and
-/// std::runtime_error if reading fails.
-std::string readBytes(const std::filesystem::path& file, std::uint64_t most, std::string_view advice);
+/// A file that was read, with the hash of the bytes that came, see hashText.
+struct FileRead {
+    std::filesystem::path path;
+    std::string hash;
+};
+
+/// The contents of a file as they are; `read`, if it is not null, notes the file. Throws InputError if there is more of
+/// it than `most` bytes, and std::runtime_error if reading fails.
+std::string readBytes(const std::filesystem::path& file, std::uint64_t most, std::string_view advice,
+                      FileRead* read = nullptr);
 
 /// The contents of a file without byte order mark, likewise; a byte 0 is refused.
-std::string readText(const std::filesystem::path& file, std::uint64_t most, std::string_view advice);
+std::string readText(const std::filesystem::path& file, std::uint64_t most, std::string_view advice,
+                     FileRead* read = nullptr);
 
 /// Text as a terminal may show it: control characters and what is not UTF-8 as \xNN, the middle left out beyond `most`
 /// bytes.

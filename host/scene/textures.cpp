@@ -44,7 +44,8 @@ float Textures::number(const Reader& value, Range range, uint& slot, uint channe
 }
 
 uint Textures::place(const MaterialTextures& textures) {
-    if ((textures.color & textures.metallic & textures.roughness & textures.opacity & textures.normal) == NONE)
+    if ((textures.color & textures.metallic & textures.roughness & textures.opacity & textures.normal &
+         textures.specular & textures.specularColor & textures.transmission) == NONE)
         return 0;
     scene.textured.materials.push_back(textures);
     return static_cast<uint>(scene.textured.materials.size());
@@ -59,6 +60,7 @@ uint Textures::coloredByVertices(uint material) {
     scene.textured.materials.push_back(slots);
     copy.textures = static_cast<uint>(scene.textured.materials.size());
     scene.materials.push_back(copy);
+    if (copy.base != 0) scene.materials[known->second].base = 1 + coloredByVertices(copy.base - 1);
     return known->second;
 }
 
@@ -107,8 +109,9 @@ uint Textures::image(const Reader& place, const std::filesystem::path& file, Tex
     if (const std::string problem = fileProblem(file, true); !problem.empty())
         place.fail(fmt::format("{}: {}", printable(file.string(), 4096), problem),
                    "give a PNG, JPEG, OpenEXR or Radiance image, relative to the scene file");
-    const std::string bytes = readBytes(file, maxMeshBytes, "make the image smaller");
-    noteFiles(scene, {file});
+    FileRead read;
+    const std::string bytes = readBytes(file, maxMeshBytes, "make the image smaller", &read);
+    noteFiles(scene, {read});
     return image(place, file.string(), bytes, space);
 }
 

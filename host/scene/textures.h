@@ -9,7 +9,7 @@ namespace vkpm {
 /// What the numbers of an image stand for, where a texture does not say it.
 enum class TexelSpace { byFile, srgb, linear };
 
-const MaterialTextures noTextures{NONE, NONE, NONE, NONE, NONE, 0};
+const MaterialTextures noTextures{NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, 0};
 
 /// What a number from 0 to 1 by the curve of sRGB stands for (IEC 61966-2-1).
 double linearOfSrgb(double x);

@@ -6,7 +6,7 @@
 
 Material value(SurfaceCase x) {
     DeviceScene scene = args.scene.at[0];
-    return materialAt(scene, surfaceAt(scene, x.path, x.hit), x.hit.weights);
+    return materialAt(scene, x.path, surfaceAt(scene, x.path, x.hit), x.hit.weights);
 }
 
 MAP(SurfaceCase, Material, value(x))
