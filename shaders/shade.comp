@@ -133,7 +133,7 @@ void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface,
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
-    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint);
+    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive);
     vertex.queues |= 1u << queue;
 }
 
