@@ -19,7 +19,7 @@ const uint parts = 8; // of the picture, along each side
 
 // What the estimates themselves may be off, as factors: measured on the shipped scenes (tools/study truth). Bias that
 // two discs do not see is the larger part.
-const double noiseUnsure = 1.06, biasUnsure = 1.25;
+const double noiseUnsure = 1.06, biasUnsure = 1.1;
 
 // Quantiles of the normal distribution: one side for the margin of the error, two sides for intervals.
 const double oneSided90 = 1.2816, twoSided90 = 1.6449;
