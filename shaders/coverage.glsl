@@ -54,11 +54,16 @@ bool isWithin(DeviceScene scene, Query query, float radius) {
     if (!hasTriangles || query.primitive >= scene.triangleCount) return false;
     Primitive p = PrimitivePtr(scene.primitives).at[query.primitive];
     vec3 ab = p.b - p.a, bc = p.c - p.b, ca = p.a - p.c;
-    vec3 inward = vec3(dot(cross(query.normal, ab), query.position - p.a),
-                       dot(cross(query.normal, bc), query.position - p.b),
-                       dot(cross(query.normal, ca), query.position - p.c)); // times the side; all of one sign
+    vec3 inward =
+        vec3(dot(cross(query.normal, ab), query.position - p.a), dot(cross(query.normal, bc), query.position - p.b),
+             dot(cross(query.normal, ca), query.position - p.c)); // times the side; all of one sign
     vec3 least = radius * radius * vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca));
     return all(greaterThan(abs(inward) * inward, least)) || all(greaterThan(-abs(inward) * inward, least));
+}
+
+bool letsLightThrough(DeviceScene scene, uint id) {
+    return hasOpacity &&
+           MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].seeThrough != 0.0;
 }
 
 const uint MOST_TRIES = 32u;
@@ -67,9 +72,9 @@ const uint MOST_TRIES = 32u;
 // points, uniform over the disc, it takes to find a covered one, up to MOST_TRIES, whose expectation that is (of a
 // geometric distribution). For y, a point's counterpart in the inner disc is taken to be covered where the point is, as
 // it is if the covered part is convex. The points are drawn by the mantissas of the place, which scaling leaves alone.
-// One where surfaces let a part of the light through: probes do not see what photons lie on there.
+// One on a surface that lets a part of the light through: photons lie on it wherever probes go through it.
 vec2 inverseCoverage(DeviceScene scene, Query query, float radius) {
-    if (hasOpacity || isWithin(scene, query, radius)) return vec2(1.0);
+    if (isWithin(scene, query, radius) || letsLightThrough(scene, query.primitive)) return vec2(1.0);
     uint draw = hash(floatBitsToUint(query.position) & 0x7fffffu);
     float inner = 0.0;
     for (uint i = 1u; i < MOST_TRIES; i++) {
