@@ -8,6 +8,7 @@
 #include "coverage.glsl"
 #include "density.glsl"
 #include "film_layout.glsl"
+#include "labels.glsl"
 #include "radius_field.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"
@@ -41,4 +42,5 @@ void main() {
         addToColumns(args.samples, args.stride, query.column == COLUMN_GATHERED ? COLUMN_GATHERED_BIAS : COLUMN_BIAS,
                      slot, 2.0 * query.weight * (irradiance - inner * args.map.photonFlux));
     addToColumns(args.samples, args.stride, query.column, slot, query.weight * irradiance);
+    labelLight(args.samples, args.stride, slot, query.column, query.weight * irradiance, FOUND_BY_PHOTONS);
 }

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
 #include "film_layout.glsl"
+#include "labels.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"
@@ -114,7 +115,8 @@ vec3 biasOfSharing(vec3 mean, Shared gathered) {
     vec3 offset = gathered.offset / gathered.count;
     vec3 rise = gathered.moment / gathered.count - luminance(mean) * offset;
     float aside = abs(dot(offset, rise)) / max(length(rise), 1e-30) * 0.75 * PI / args.radius;
-    return mix(2.0, 3.4142136, min(aside * aside, 1.0)) * (mean - gathered.inner / gathered.innerCount);
+    float first = clamp(aside * aside - 2.0 / gathered.count, 0.0, 1.0); // without what chance does to so many
+    return mix(2.0, 3.4142136, first) * (mean - gathered.inner / gathered.innerCount);
 }
 
 void main() {
@@ -126,6 +128,7 @@ void main() {
     Shared gathered = gatheredAround(slot, here);
     vec3 mean = gathered.sum / gathered.count;
     addToColumns(args.samples, args.stride, layerColumn(layer), slot, here.throughput * mean);
+    labelLight(args.samples, args.stride, slot, layerColumn(layer), here.throughput * mean, FOUND_BY_GATHERING);
     if (hasBias)
         addToColumns(args.samples, args.stride, COLUMN_BIAS, slot,
                      here.throughput * (gathered.bias / gathered.count + biasOfSharing(mean, gathered)));
