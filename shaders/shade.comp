@@ -12,6 +12,7 @@
 #include "feature_checks.glsl"
 #include "film_layout.glsl"
 #include "glint.glsl"
+#include "labels.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "media.glsl"
@@ -59,6 +60,7 @@ struct Vertex {
     uint queues;         // that it goes to, one bit each
     uint emissionColumn; // to which `emission` is added, or NONE
     vec3 emission;
+    uint event;          // of the path that goes on, see labels.glsl
     Path path;           // of QUEUE_CONTINUE
     ShadowRay shadowRay; // of QUEUE_SHADOW
     Query query;         // of QUEUE_CAUSTIC or QUEUE_GLOBAL
@@ -133,7 +135,7 @@ void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface,
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
-    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint);
+    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive);
     vertex.queues |= 1u << queue;
 }
 
@@ -213,6 +215,8 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     vertex.path = Path(origin, event.direction, throughput, wide ? 0.0 : path.distanceSinceDiffuse, surface.primitive,
                        withPdf(afterLobe(path.flags, wide), event.pdf), media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
+    bool through = dot(path.direction, surface.normal) > 0.0 == dot(event.direction, surface.normal) > 0.0;
+    vertex.event = hasGlossy && isGlossy(material) ? EVENT_GLOSSY : through ? EVENT_WENT_THROUGH : EVENT_REFLECTED;
 }
 
 void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 albedo, BounceSampler s) {
@@ -254,6 +258,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     Vertex vertex;
     vertex.queues = 0u;
     vertex.emissionColumn = NONE;
+    vertex.event = EVENT_REFLECTED;
     vertex.split.flags = NONE;
     if (!hasEndless && hit.primitive == NONE) return vertex;
     DeviceScene scene = args.scene.at[0];
@@ -270,7 +275,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     path.distanceSinceDiffuse += hit.t;
     if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     if (bounce == 0u) {
-        if (hasAlbedo) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
+        if (hasAlbedo && !hasLabels) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
         if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
         if (hasDepth) {
             args.samples.at[COLUMN_DEPTH * args.stride + slot] =
@@ -309,8 +314,12 @@ void main() {
     uint slot = args.list.at[queue.first + place];
     Vertex vertex = shade(slot, args.bounce, args.paths.at[slot], args.hits.at[slot]);
     putFlags(args.flags, place, EYE_QUEUES, vertex.queues);
-    if (vertex.emissionColumn != NONE)
+    if (vertex.emissionColumn != NONE) {
         addToColumns(args.samples, args.stride, vertex.emissionColumn, slot, vertex.emission);
+        labelLight(args.samples, args.stride, slot, vertex.emissionColumn, vertex.emission, FOUND_LIGHT);
+    }
+    if (args.sequence == SAMPLES_EYE && (vertex.queues & 1u << QUEUE_CONTINUE) != 0u)
+        addEvent(args.samples, args.stride, slot, vertex.event);
     if ((vertex.queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = vertex.path;
     if ((vertex.queues & 1u << QUEUE_SHADOW) != 0u) args.shadowRays.at[slot] = vertex.shadowRay;
     if ((vertex.queues & (1u << QUEUE_CAUSTIC | 1u << QUEUE_GLOBAL)) != 0u) args.queries.at[slot] = vertex.query;

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
 #include "film_layout.glsl"
+#include "labels.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
 #include "shared_film.h"
@@ -71,9 +72,11 @@ struct Shared {
     vec3 bias;
     float count;
     float innerCount;
+    vec3 offset; // sum of those of the neighbours: to one side at an edge
+    vec3 moment; // sum of these times the luminance of the values
 };
 
-void add(uint slot, bool isInner, inout Shared gathered) {
+void add(uint slot, vec3 offset, bool isInner, inout Shared gathered) {
     vec3 value = loadColumns(args.samples, args.stride, COLUMN_GATHERED, slot);
     gathered.sum += value;
     gathered.count += 1.0;
@@ -81,12 +84,14 @@ void add(uint slot, bool isInner, inout Shared gathered) {
     gathered.bias += loadColumns(args.samples, args.stride, COLUMN_GATHERED_BIAS, slot);
     if (isInner) gathered.inner += value;
     gathered.innerCount += float(isInner);
+    gathered.offset += offset;
+    gathered.moment += luminance(value) * offset;
 }
 
 // A sample that is not finite stays with its pixel, where the film counts it.
 Shared gatheredAround(uint slot, Split here) {
-    Shared gathered = Shared(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
-    add(slot, true, gathered);
+    Shared gathered = Shared(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0), vec3(0.0));
+    add(slot, vec3(0.0), true, gathered);
     uint first = args.firstRow * args.width;
     ivec2 pixel = ivec2((first + slot) % args.width, (first + slot) / args.width);
     Window window = windowAround(here, pixel);
@@ -96,9 +101,22 @@ Shared gatheredAround(uint slot, Split here) {
             float distance2;
             if (other == slot || !isNeighbour(here, args.splits.at[other], distance2)) continue;
             if (isFinite(loadColumns(args.samples, args.stride, COLUMN_GATHERED, other)))
-                add(other, distance2 < 0.5 * args.radius * args.radius, gathered);
+                add(other, args.splits.at[other].origin - here.origin, distance2 < 0.5 * args.radius * args.radius,
+                    gathered);
         }
     return gathered;
+}
+
+// The bias of the mean over the disc, from that and the mean over the disc of half the area. Around a point bias is of
+// second order in the radius, and the difference half of it. At a straight edge towards which the values rise or fall
+// the neighbours are off that way by 4 / (3 pi) of the radius in their mean; bias is of first order, and the difference
+// 1 - sqrt(1/2) of it.
+vec3 biasOfSharing(vec3 mean, Shared gathered) {
+    vec3 offset = gathered.offset / gathered.count;
+    vec3 rise = gathered.moment / gathered.count - luminance(mean) * offset;
+    float aside = abs(dot(offset, rise)) / max(length(rise), 1e-30) * 0.75 * PI / args.radius;
+    float first = clamp(aside * aside - 2.0 / gathered.count, 0.0, 1.0); // without what chance does to so many
+    return mix(2.0, 3.4142136, first) * (mean - gathered.inner / gathered.innerCount);
 }
 
 void main() {
@@ -110,8 +128,8 @@ void main() {
     Shared gathered = gatheredAround(slot, here);
     vec3 mean = gathered.sum / gathered.count;
     addToColumns(args.samples, args.stride, layerColumn(layer), slot, here.throughput * mean);
+    labelLight(args.samples, args.stride, slot, layerColumn(layer), here.throughput * mean, FOUND_BY_GATHERING);
     if (hasBias)
         addToColumns(args.samples, args.stride, COLUMN_BIAS, slot,
-                     here.throughput *
-                         (gathered.bias / gathered.count + 2.0 * (mean - gathered.inner / gathered.innerCount)));
+                     here.throughput * (gathered.bias / gathered.count + biasOfSharing(mean, gathered)));
 }

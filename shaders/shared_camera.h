@@ -26,6 +26,7 @@ struct Query {
     vec3 weight;
     uint column;     // of the samples; NONE: a map of narrow discs has answered
     float footprint; // radius that a pixel covers there
+    uint primitive;  // that it is on
 };
 BUFFER(Query)
 
@@ -127,6 +128,7 @@ struct GatherArgs {
     PTR(float) samples; // [column][stride]
     PTR(Queue) queue;
     PTR(uint) list;
+    ADDRESS(DeviceScene) scene; // 0: discs count in full, wherever their parts lie
     uint stride;
 };
 

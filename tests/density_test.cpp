@@ -1,5 +1,6 @@
 /// Density estimates: normalised kernels, no bias over uniform photons, and only photons that should count.
 #include "photons_on_device.h"
+#include "scene_on_device.h"
 #include "shared_camera.h"
 #include "shared_photons.h"
 #include <algorithm>
@@ -210,6 +211,77 @@ TEST(Density, OneAndNoPhotons) {
     for (const vec3 y : map<vec3>("estimate_within", queries, {}, none.context())) EXPECT_EQ(y, vec3(0));
     for (const float r : map<float>("nearest_radius", std::vector{queryAt({1, 2, 3}, 5)}, {}, none.context()))
         EXPECT_EQ(r, 0.5f);
+}
+
+/// Of a disc of radius one, the part that lies beyond a straight line at distance t from the middle.
+double beyond(double t) { return t < 1 ? (std::acos(t) - t * std::sqrt(1 - t * t)) / pi : 0; }
+
+/// One over the covered parts of discs at points of a line from (x, -0.5, 0) to (x, 0.5, 0).
+std::vector<vec2> coverageAlong(const Scene& scene, float x, float discRadius) {
+    Random random(11);
+    std::vector<Query> queries;
+    for (uint i = 0; i < 20'000; i++) queries.push_back(queryAt({x, random.between(-0.5f, 0.5f), 0}));
+    const TestScene onDevice(scene);
+    return map<vec2>("inverse_coverage", queries, {}, {.scene = onDevice.address, .photons = {.radius = discRadius}});
+}
+
+/// A square of two triangles and, at x = 1, what closes it.
+Scene squareWith(std::vector<Primitive> more, float scale = 1) {
+    const vec3 a{-1, -1, 0}, b{1, -1, 0}, c{1, 1, 0}, d{-1, 1, 0};
+    more.insert(more.begin(), {triangle(a, b, c), triangle(a, c, d)});
+    for (Primitive& p : more) p.a *= scale, p.b *= scale, p.c *= scale;
+    const uint count = uint(more.size());
+    return sceneOf(std::move(more), count);
+}
+
+// At a free edge, in a corner, and in a corner with a sheet of glass before it.
+TEST(Density, CoverageIsThePartOfADiscThatLiesOnSurfaces) {
+    const vec3 low{1, -1, 0}, high{1, 1, 0}, up{0, 0, 1};
+    const Scene edge = squareWith({});
+    const Scene corner = squareWith({triangle(low, high, high + up), triangle(low, high + up, low + up)});
+    Scene pane = squareWith({triangle({0.5f, -1, 0.005f}, {1, -1, 0.005f}, {1, 1, 0.005f}),
+                             triangle({0.5f, -1, 0.005f}, {1, 1, 0.005f}, {0.5f, 1, 0.005f})});
+    pane.materials.push_back({MATERIAL_GLASS, vec3{1}, 1.5f});
+    for (Primitive& p : pane.primitives)
+        if (p.a.z > 0) p.material = 1;
+    const float r = 0.2f;
+    for (const Scene* scene : std::initializer_list<const Scene*>{&edge, &corner, &pane})
+        for (const double t : {0.1, 0.4, 0.8}) {
+            Mean outer, inner;
+            for (const vec2 v : coverageAlong(*scene, float(1 - t * double{r}), r)) outer.add(v.x), inner.add(v.y);
+            EXPECT_NEAR(outer.mean(), 1 / (1 - beyond(t)), 5 * outer.error()) << t;
+            EXPECT_NEAR(inner.mean(), 1 / (1 - beyond(t * std::sqrt(2))), 5 * inner.error() + 1e-6) << t;
+        }
+    for (const vec2 v : coverageAlong(corner, 0.75f, r)) ASSERT_EQ(v, vec2(1)); // the diagonal is no edge
+}
+
+TEST(Density, CoverageDoesNotDependOnTheScale) {
+    const Scene small = squareWith({}), large = squareWith({}, 1024);
+    const TestScene smallScene(small), largeScene(large);
+    std::vector<Query> queries = uniformQueries(1000, 12);
+    for (Query& query : queries) query.position.x = 0.95f;
+    const auto found =
+        map<vec2>("inverse_coverage", queries, {}, {.scene = smallScene.address, .photons = {.radius = 0.1f}});
+    for (Query& query : queries) query.position *= 1024;
+    EXPECT_EQ(found, (map<vec2>("inverse_coverage", queries, {},
+                                {.scene = largeScene.address, .photons = {.radius = 102.4f}})));
+    EXPECT_GT(std::ranges::count_if(found, [](vec2 v) { return v.x > 1; }), 50);
+}
+
+// What bulges out of the tangent plane keeps no photons that count there: of a ball the cap that is a tenth of the
+// radius high.
+TEST(Density, CoverageOfABallIsItsCap) {
+    const float r = 0.2f, ball = 0.25f;
+    const TestScene scene(sceneOf({sphere({0, 0, -ball}, ball)}, 0));
+    std::vector<Query> queries;
+    Random random(13);
+    for (uint i = 0; i < 20'000; i++) // near the top
+        queries.push_back(queryAt({random.between(-1e-4f, 1e-4f), random.between(-1e-4f, 1e-4f), 0}));
+    const double sag = 0.1 * double{r}, part = sag * (2 * double{ball} - sag) / double{r * r};
+    Mean mean;
+    for (const vec2 v : map<vec2>("inverse_coverage", queries, {}, {.scene = scene.address, .photons = {.radius = r}}))
+        mean.add(v.x);
+    EXPECT_NEAR(mean.mean(), 1 / part, 5 * mean.error() + 0.01);
 }
 
 } // namespace

@@ -207,5 +207,27 @@ TEST(Estimate, OfBiasIsTheBlurOfFixedDiscs) {
     EXPECT_NEAR(judge(scene, settings, 128, truth).estimate.bias, 0.25 * wide.estimate.bias, 0.05 * wide.estimate.bias);
 }
 
+// Wide discs of a fixed width reach beyond edges and into corners: they count the part of their area that lies on
+// surfaces, and the blur of what is shared there is stated for what it is. The reference is off by 1 %.
+TEST(Estimate, IsTrueOfWideDiscsAtEdgesAndInCorners) {
+    const Image reference = readExr(std::filesystem::path(VKPM_TEST_DATA) / "references" / "diffuse_box.exr");
+    const Scene scene = shippedScene("diffuse_box");
+    Settings settings = scene.settings;
+    settings.size = reference.size;
+    settings.alpha = 1;
+    settings.radius = 0.2f;
+    const Judged wide = judge(scene, settings, 32, referenceLayer(reference, ""));
+    std::printf("wide discs: off by %.4f; %s\n", wide.error, describe(wide.estimate).c_str());
+    EXPECT_LE(wide.error, 1.05 * wide.estimate.error);
+    EXPECT_LE(wide.estimate.error, 1.3 * wide.error);
+    EXPECT_LT(wide.estimate.noise, 0.7 * wide.error);
+
+    const Values truth = referenceLayer(reference, "indirect");
+    const double mean = layerMean(renderPasses(scene, settings, 32).pixels, LAYER_INDIRECT);
+    const double right = std::accumulate(truth.begin(), truth.end(), 0.0) / double(truth.size());
+    std::printf("mean of indirect light off by %+.4f of it\n", mean / right - 1);
+    EXPECT_NEAR(mean / right, 1, 0.01);
+}
+
 } // namespace
 } // namespace vkpm

@@ -291,7 +291,8 @@ RandomScene randomScene(uint seed) {
     std::vector<std::array<uint, 2>> values;
     const Features features = sceneFeatures(loadJson(random.text), random.settings);
 #define X(id, type, name, value)                                                                                       \
-    if (id != id_stackSize && id != id_checksFeatures) values.push_back({id, uint(features.name)});
+    if (id != id_stackSize && id != id_checksFeatures && id != id_hasLabels)                                           \
+        values.push_back({id, uint(features.name)});
     FEATURES(X)
 #undef X
     for (const auto& [a, va] : values)

@@ -32,7 +32,8 @@ public:
 };
 
 inline Query queryAt(vec3 position, uint nearest = 0, vec3 normal = {0, 0, 1}) {
-    return {.position = position, .normal = normal, .weight = vec3(1), .column = nearest};
+    return {
+        .position = position, .normal = normal, .weight = vec3(1), .column = nearest, .footprint = 0, .primitive = 0};
 }
 
 /// Squared distance of a photon if it counts for a query (see density.glsl), or infinity; in double precision.

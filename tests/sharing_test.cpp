@@ -130,6 +130,20 @@ TEST(Sharing, SaysHowBlurredItIs) {
     EXPECT_NEAR(bias.mean(), blur.mean(), 0.1 * blur.mean());
 }
 
+// At an edge towards which light falls, neighbours lie to one side, off by 4 / (3 pi) of the radius in their mean.
+TEST(Sharing, SaysHowBlurredEdgesAre) {
+    const float radius = 12.5f * spacing;
+    const SharedValues shared = share(
+        plane(), [](uint x, uint) { return float(x) * spacing; }, radius);
+    Mean blur, bias;
+    for (uint i = 0; i < pixels; i += size.x) {
+        blur.add(shared.mean[i]);
+        bias.add(shared.bias[i]);
+    }
+    EXPECT_NEAR(blur.mean(), 4 / (3 * pi) * radius, 0.03 * radius);
+    EXPECT_NEAR(bias.mean(), blur.mean(), 0.1 * blur.mean());
+}
+
 TEST(Sharing, WhatIsNotFiniteStaysAlone) {
     const uint bad = 10 * size.x + 30;
     const auto value = [](uint x, uint y) { return y * size.x + x == bad ? std::nanf("") : 1.0f; };

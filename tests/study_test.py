@@ -19,6 +19,7 @@ from studies.cells import matrix
 from studies.curves import Curve, Row, layer_curve, mean_curve, read_rows, without_reference, write_rows
 from studies.page import time_cell
 from studies.reference import Part, Reference, refine
+from studies.specks import path_of, read_pass
 from studies.truth import error_of
 from studies.vkpm import LIGHT, Vkpm, read_image
 
@@ -242,6 +243,41 @@ def test_truth(output: Path) -> None:
     assert not np.allclose(read_image(picture).layers["beauty"], layers["beauty"])
 
 
+def test_labels(output: Path) -> None:
+    """Lamps, what is seen in mirrors and glass, and what is not, have the paths that their layers have."""
+    assert path_of((0b1010001 << 2) | 1) == "LDsSsE"
+    assert path_of((1 << 20 << 2) | 2) == "L...D..." + 10 * "S" + "E"
+    output.mkdir()
+    words = [sys.argv[1], "--scene", SCENE, "--size", "64x64", "--passes", 1, "--photons", 2000, "--labels",
+             "-o", output / "labels.exr", "--quiet"]
+    subprocess.run([*map(str, words)], timeout=120, check=True)
+    found = read_pass(str(output / "labels.exr"))
+    light = {layer: np.sum(value, -1) for layer, value in found.layers.items()}
+    names = np.vectorize(path_of)(found.codes)
+    assert set(names[light["emission"] > 0]) == {"LE"}
+    mirrored = set(names[light["specular"] > 0])
+    assert {"LDSE", "LDssE"} <= mirrored and all(re.fullmatch(r"L[D.]*[Ss]+E", name) for name in mirrored), mirrored
+    plain = set(names[(light["emission"] == 0) & (light["specular"] == 0) & (sum(light.values()) > 0)])
+    assert "LDE" in plain and plain <= {"LDE", "L...DE", "L...DDE"}, plain
+    words[words.index("--passes") + 1] = 2
+    refused = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=60, check=False)
+    assert refused.returncode == 2 and "--labels: found with 2 passes" in refused.stderr, refused.stderr
+
+
+def test_specks(output: Path) -> None:
+    """The tables name paths, and leave no pass behind."""
+    words = ["specks", "--scenes", SCENE, "--size", "24x24", "--passes", 4, "--seeds", 1, "--reference-passes", 16,
+             "--part", 0.02, "--photons", 2000, "--caustic-photons", 2000, "-o", output, "--vkpm", sys.argv[1],
+             "--quiet"]
+    process = subprocess.run([*STUDY, *map(str, words)], capture_output=True, text=True, timeout=120, check=False)
+    assert process.returncode == 0, process.stderr
+    text = process.stdout
+    rows = [line for line in text.splitlines() if re.fullmatch(r"\| 1 \| \d+, \d+ \| [0-3] \| \w+ \| [-+.\de]+ \| "
+                                                               r"L[DGSs.]*E \|", line)]
+    assert len(rows) == 10, text
+    assert not list(output.glob("*/labels-*"))
+
+
 # Matrices.
 
 
@@ -344,6 +380,8 @@ def main() -> None:
         test_parts(folder / "parts")
         test_errors_of_known_noise()
         test_truth(folder / "truth")
+        test_labels(folder / "labels")
+        test_specks(folder / "specks")
         test_axes_alone()
         test_matrix(folder / "references", folder / "matrix")
         test_report(folder / "references", folder / "report")

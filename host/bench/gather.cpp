@@ -37,7 +37,7 @@ public:
     void run() {
         Recording recording(gpu);
         recording.run(gather, queries.size(),
-                      {map, queries, samples, all.queue, all.list, static_cast<uint>(queries.size())});
+                      {map, queries, samples, all.queue, all.list, {}, static_cast<uint>(queries.size())});
         recording.submit();
     }
 

@@ -145,6 +145,9 @@ template <class Asked> Options parseRender(std::span<const std::string> argument
     addPhotons(parser, options, defaults);
     parser.group("Machine");
     addMachine(parser, options);
+    if (!window)
+        parser.flag("--labels", "of one pass, say which path brought each pixel most: see tools/study specks",
+                    options.labels);
     parser.flag("--quiet", "no progress on stderr", options.quiet);
     parser.footer(window ? WINDOW : COMMANDS);
     if (const std::string text = parser.parse(arguments); !text.empty()) return PrintOptions{text};

@@ -44,7 +44,15 @@ Settings SettingsOptions::over(Settings settings) const {
 }
 
 Settings RenderOptions::settingsOf(const Settings& sceneSettings) const {
-    const Settings settings = over(sceneSettings);
+    Settings settings = over(sceneSettings);
+    settings.labels = labels;
+    const uint count = passRange ? passRange->end - passRange->begin : settings.passes;
+    if (labels && (count != 1 || !(settings.layers >> ASK_ALBEDO & 1) ||
+                   (settings.integrator != INTEGRATOR_PHOTON && settings.integrator != INTEGRATOR_DIRECT)))
+        throw InputError(
+            fmt::format("--labels: found with {} passes of --integrator {}; allowed: one pass of photon or "
+                        "direct, with the layer albedo, in whose place they are",
+                        count, integratorNames[settings.integrator]));
     if (targetError && (settings.layers & (1u << ASK_NOISE | 1u << ASK_BIAS)) != (1u << ASK_NOISE | 1u << ASK_BIAS))
         throw InputError(
             "--target-error: needs the layers noise and bias; allowed: with all layers, or with both in --layers");

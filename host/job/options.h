@@ -46,6 +46,7 @@ struct RenderOptions : SettingsOptions {
     std::optional<std::filesystem::path> report; // folder
     bool resume = false;
     bool withoutSums = false;          // --no-resume: the picture alone
+    bool labels = false;               // of paths, in place of the albedo
     bool half = false;                 // layers as 16-bit floats
     std::optional<double> checkpoint;  // seconds between saves
     std::optional<double> seconds;     // of rendering

@@ -81,7 +81,10 @@ void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMa
     if (map.radius == 0) return;
     const Ptr<Queue> queue{compaction.queues.address + kind * sizeof(Queue)};
     if (!maps.marks) {
-        recording.run(*gather, compaction.queues, kind, {map, queries, samples, queue, compaction.list, size});
+        const bool clips = settings.integrator == INTEGRATOR_PHOTON;
+        recording.run(
+            *gather, compaction.queues, kind,
+            {map, queries, samples, queue, compaction.list, clips ? scene.address : Ptr<DeviceScene>{}, size});
         return;
     }
     const VisibleCells::Map& marks = kind == QUEUE_CAUSTIC ? maps.marks->caustic : maps.marks->global;

@@ -112,6 +112,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
             : !(settings.layers >> ASK_BIAS & 1) ? "nobody asked for it"
                                                  : "nothing is read from a photon map",
             "photon maps blur");
+    because("hasLabels", f.hasLabels ? "" : "nobody asked for them", "--labels asks for them");
     because("checksFeatures", f.checksFeatures ? "" : "only debug builds do it", "this is a debug build");
     return lines;
 }

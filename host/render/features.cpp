@@ -64,6 +64,7 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
 #ifndef NDEBUG
     features.checksFeatures = 1;
 #endif
+    features.hasLabels = settings.labels;
     if (settings.allFeatures) {
         features.stackSize = std::max(features.stackSize, scene.stackSize);
         chooseLayers(features, settings);

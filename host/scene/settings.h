@@ -40,6 +40,7 @@ struct Settings {
     bool showPoints = false;               // photon-map: photons as points in place of the estimate
     bool guides = true;                    // photons are sent where the eye looks, if many would lie elsewhere
     uint layers = allLayers;               // bits by place in layerNames; what is not asked for is not rendered
+    bool labels = false;                   // of the paths that bring pixels most, in place of the albedo
     bool allFeatures = false;  // the general program in place of one compiled for the scene; the same picture
     float exposure = 0;        // stops, for the PNG alone
     bool autoExposure = false; // in its place, by the mean logarithm of the picture

@@ -19,6 +19,7 @@ std::string settingsJson(const Settings& s) {
         for (uint i = 0; i < layerNames.size(); i++)
             if (s.layers >> i & 1) json["layers"].push_back(layerNames[i]);
     }
+    if (s.labels) json["labels"] = true;
     if (s.radius) json["radius"] = *s.radius;
     if (s.causticRadius) json["causticRadius"] = *s.causticRadius;
     if (s.integrator == INTEGRATOR_PHOTON_MAP) {

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from studies.reference import make_references
 from studies.run import run_study
+from studies.specks import study_specks
 from studies.truth import study_truth
 from studies.vkpm import VKPM, Failure, say
 
@@ -140,6 +141,20 @@ def parse_arguments() -> tuple[argparse.Namespace, list[str]]:
              "(default 256)")
     add_common(truth, "truth")
 
+    specks = commands.add_parser(
+        "specks", allow_abbrev=False, epilog=epilog, help="find the paths that make the pixels that are off most",
+        description="Render scenes with some seeds and once for long, then each pass again by itself with labels of "
+                    "its paths, and print the pixels that are off most, with pass, layer and path, and the part of the "
+                    "squared error that each path brings. What tools/study truth has rendered is used.")
+    add = specks.add_argument
+    add("--scenes", type=list_of(scene), required=True, metavar="FILE,FILE", help="scenes to render")
+    add("--passes", type=lambda text: [count(text)], default=[16], metavar="N", help="of each picture (default 16)")
+    add("--seeds", type=count, default=2, metavar="N", help="renders of each (default 2)")
+    add("--part", type=float, default=0.001, metavar="P", help="of the pixels, those off most (default 0.001)")
+    add("--count", type=count, default=10, metavar="N", help="lines of each table (default 10)")
+    add("--reference-passes", type=count, default=256, metavar="N", help="as of tools/study truth (default 256)")
+    add_common(specks, "truth")
+
     args, options = parser.parse_known_args()
     if args.command == "run" and args.alone and not args.axis:
         parser.error("--alone: there is no axis; allowed: with at least one --axis")
@@ -155,7 +170,8 @@ def main() -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
-        return {"reference": make_references, "run": run_study, "truth": study_truth}[args.command](args, options)
+        commands = {"reference": make_references, "run": run_study, "truth": study_truth, "specks": study_specks}
+        return commands[args.command](args, options)
     except Failure as failure:
         say(str(failure))
         return failure.code
