@@ -94,7 +94,7 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(30, bool, hasSmoothDiffuse, true)                                                                                \
     X(31, bool, hasContact, true)                                                                                      \
     X(39, bool, hasNarrow, true)  /* surfaces that send light on in one direction or about it */                       \
-    X(42, bool, hasLabels, false) /* albedo says which path brought a pixel most, see labels.glsl */
+    X(43, bool, hasLabels, false) /* albedo says which path brought a pixel most, see labels.glsl */
 
 // Those that plain kernels are without, as they are without glossy lobes and without lights that have no area.
 #define WORLD_FEATURES(X)                                                                                              \
