@@ -23,7 +23,8 @@ vec3 normalDirection(DeviceScene scene, uint id, vec3 position) {
 
 // Whether photons may lie at a hit, at offset d from the query.
 bool keepsPhotons(DeviceScene scene, Query query, float radius, uint id, vec3 d) {
-    uint kind = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].kind;
+    Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material];
+    uint kind = hasMixed && m.base != 0u ? MaterialPtr(scene.materials).at[m.base - 1u].kind : m.kind;
     vec3 side = normalDirection(scene, id, query.position + d);
     float cosine = dot(side, query.normal);
     return (DIFFUSE_KINDS >> kind & 1u) != 0u && dot(d, d) < radius * radius &&
@@ -71,11 +72,12 @@ const uint MOST_TRIES = 32u;
 // One over the part of the disc that surfaces cover (x), and one over that of the disc of half its area (y): how many
 // points, uniform over the disc, it takes to find a covered one, up to MOST_TRIES, whose expectation that is (of a
 // geometric distribution). For y, a point's counterpart in the inner disc is taken to be covered where the point is, as
-// it is if the covered part is convex. The points are drawn by the mantissas of the place, which scaling leaves alone.
+// it is if the covered part is convex. The points are drawn by the place in
+// units of the radius, which scaling leaves alone, without the last bits, in which drivers differ.
 // One on a surface that lets a part of the light through: photons lie on it wherever probes go through it.
 vec2 inverseCoverage(DeviceScene scene, Query query, float radius) {
     if (isWithin(scene, query, radius) || letsLightThrough(scene, query.primitive)) return vec2(1.0);
-    uint draw = hash(floatBitsToUint(query.position) & 0x7fffffu);
+    uint draw = hash(floatBitsToUint(abs(roundEven(query.position * (4096.0 / radius)))));
     float inner = 0.0;
     for (uint i = 1u; i < MOST_TRIES; i++) {
         vec2 place = uniformDisc(vec2(unitFloat(draw), unitFloat(hash(draw ^ 0x68bc21ebu))));
