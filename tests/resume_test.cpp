@@ -248,7 +248,7 @@ int lastCheckpoint(const fs::path& log) {
 TEST_F(Resume, KilledAtAnyMomentItLosesAnIntervalAtMost) {
     const fs::path output = folder / "x.exr";
     std::mt19937 random(3);
-    const int enough = isThorough() ? 24 : 8;
+    const int enough = isNightly() ? 24 : 8;
     int before = 0, kills = 0;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(8);
     while ((kills < enough || before < 30) && std::chrono::steady_clock::now() < deadline) {

@@ -4,6 +4,7 @@ Their tame siblings are of the same kind: time is what the extreme costs, not wh
 """
 
 from lab import (
+    BALL,
     BOX,
     Lab,
     Scene,
@@ -18,7 +19,6 @@ from lab import (
     without,
 )
 
-BALL = [0.45, -0.65, 0.25]  # the box's glass ball, 0.35 wide
 EMPTY = without(BOX, "glass ball", "mirror ball")
 
 

@@ -284,6 +284,7 @@ def plus(scene: Scene, *shapes: dict, **materials: dict) -> Scene:
 
 
 BOX = shipped("box")
+BALL = [0.45, -0.65, 0.25]  # the centre of its glass ball, 0.35 wide
 
 
 def rectangle(corner: list, u: list, v: list, **rest: object) -> dict:

@@ -1,6 +1,7 @@
 """Hostile cases of lights and materials."""
 
 from lab import (
+    BALL,
     BOX,
     LIGHT,
     Lab,
@@ -21,7 +22,6 @@ from lab import (
 )
 
 LAMP = "light"
-GLASS_BALL = [0.45, -0.65, 0.25]
 
 
 def by_power(exponent: int) -> None:
@@ -101,7 +101,7 @@ def whole_ceiling(lab: Lab) -> Verdict:
 
 @case("light", "a lamp inside the glass ball", "mean of the path tracer within 2 %")
 def lamp_in_glass(lab: Lab) -> Verdict:
-    return against_path(lab, plus(without(BOX, LAMP), sphere(GLASS_BALL, 0.15, emission=[17, 12, 4])), 0.02,
+    return against_path(lab, plus(without(BOX, LAMP), sphere(BALL, 0.15, emission=[17, 12, 4])), 0.02,
                         passes="512")
 
 

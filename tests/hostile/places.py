@@ -3,6 +3,7 @@
 import numpy as np
 
 from lab import (
+    BALL,
     BOX,
     Lab,
     Render,
@@ -19,7 +20,6 @@ from lab import (
     scaled,
 )
 
-GLASS_BALL = [0.45, -0.65, 0.25]
 
 
 def median_difference(found: Render, expected: Render) -> float:
@@ -79,7 +79,7 @@ def seen_from(lab: Lab, camera: dict) -> Verdict:
 
 @case("place", "camera inside the glass ball", "mean of the path tracer within 2 %")
 def camera_in_glass(lab: Lab) -> Verdict:
-    camera = {"origin": GLASS_BALL, "target": [0.2, -0.4, -1], "up": [0, 1, 0], "fieldOfView": 60}
+    camera = {"origin": BALL, "target": [0.2, -0.4, -1], "up": [0, 1, 0], "fieldOfView": 60}
     return seen_from(lab, camera)
 
 

@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from lab import (
+    BALL,
     BOX,
     Lab,
     Scene,
@@ -24,7 +25,6 @@ from lab import (
     without,
 )
 
-BALL = [0.45, -0.65, 0.25]  # the box's glass ball, 0.35 wide
 OPEN = without(BOX, "light", "ceiling", "left", "right")
 WALLS = ("white", "red", "green")  # the box's materials that are diffuse
 
