@@ -1,6 +1,7 @@
 /// glTF files: geometry, cameras, lamps and materials as the specification has them; what is wrong has its place.
 #include "packed_models.h"
 #include "scene/identity.h"
+#include "scene/mikktspace.h"
 #include "scene_text.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -388,6 +389,29 @@ TEST(Gltf, BuffersAreFilesNotAddressesOrPipes) {
     EXPECT_THAT(refusal("none.bin"), HasSubstr("/buffers/0/uri: "));
     EXPECT_THAT(refusal("data:;base64,AAAA"), HasSubstr("/buffers/0: found a buffer of"));
     EXPECT_THAT(refusal("data:;base64,A*AA"), HasSubstr("/buffers/0/uri: found \"*\" in base64"));
+}
+
+// A head with seams, mirrored places and sharp edges: its tangents as Blender's MikkTSpace computes and exports them.
+TEST(Gltf, TangentsAreThoseOfBlender) {
+    Mesh mesh = loadMesh(VKPM_TEST_DATA "/tangents.glb", Smoothness::fromFile);
+    const std::vector<Tangents> computed = mikkTangents(mesh, 0);
+    ASSERT_EQ(computed.size(), mesh.tangents.size());
+    ASSERT_GT(computed.size(), 150u);
+    int behind = 0, off = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < computed.size(); i++) {
+        const Tangents &found = computed[i], &expected = mesh.tangents[i];
+        behind += expected.side < 0;
+        EXPECT_EQ(found.side, expected.side) << i;
+        for (const auto& [f, e] : {std::pair(found.a, expected.a), {found.b, expected.b}, {found.c, expected.c}}) {
+            const double angle = glm::length(glm::cross(glm::dvec3{f}, glm::dvec3{e}));
+            most = std::max(most, angle);
+            off += angle > 1e-3 || glm::dot(f, e) < 0;
+        }
+    }
+    std::printf("%d of %zu triangles are mirrored; the largest angle is %.1e\n", behind, computed.size(), most);
+    EXPECT_GT(behind, 20);
+    EXPECT_EQ(off, 0);
 }
 
 // A chain of a hundred thousand nodes is walked without recursion.

@@ -1,5 +1,6 @@
 /// Shapes that are meshes.
 #include "scene/bounding_sphere.h"
+#include "scene/mikktspace.h"
 #include "scene/shapes.h"
 #include "scene/text.h"
 #include <algorithm>
@@ -92,6 +93,21 @@ bool ShapeLoader::isTextured(const Surface& surface) const {
     return surface.emission != NONE || scene.materials[surface.material].textures != 0;
 }
 
+uint ShapeLoader::normalMapOf(const Surface& surface) const {
+    const uint textured = scene.materials[surface.material].textures;
+    return textured != 0 ? scene.textured.materials[textured - 1].normal : NONE;
+}
+
+/// Those of the mesh, or computed ones, of all its triangles; none if there is no use for them.
+std::vector<Tangents> ShapeLoader::tangentsFor(const Mesh& mesh, const Surface& surface) const {
+    const uint normal = normalMapOf(surface);
+    if (normal == NONE) return {};
+    const uint set = scene.textured.textures[normal].set;
+    const bool smooth = std::ranges::any_of(mesh.triangles, [](const auto& t) { return t.normals.has_value(); });
+    if (!mesh.tangents.empty() || !smooth || mesh.coordinates[set].empty()) return mesh.tangents;
+    return mikkTangents(mesh, set);
+}
+
 /// Before the triangle itself is added.
 void ShapeLoader::addCoordinates(const Reader& shape, const Surface& surface, const TexturePlaces& first,
                                  const TexturePlaces& second) {
@@ -108,8 +124,7 @@ void ShapeLoader::addCoordinates(const Reader& shape, const Surface& surface, co
 }
 
 void ShapeLoader::warnOfFlatCoordinates(const Reader& shape, const Surface& surface, std::size_t first) {
-    const uint textured = isTextured(surface) ? scene.materials[surface.material].textures : 0;
-    const uint normal = textured != 0 ? scene.textured.materials[textured - 1].normal : NONE;
+    const uint normal = normalMapOf(surface);
     if (normal == NONE) return;
     std::size_t flat = 0;
     for (std::size_t i = first; i < scene.primitives.size(); ++i) {
@@ -143,10 +158,11 @@ std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transf
     if (!mesh.colors.empty()) surface.material = textures.coloredByVertices(surface.material);
     const std::size_t first = scene.primitives.size();
     requireCoordinates(shape, mesh, surface);
+    const std::vector<Tangents> tangents = tangentsFor(mesh, surface);
     std::size_t count = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (part && mesh.materials[i] != *part) continue;
-        addTriangle(shape, mesh, i, transform, surface);
+        addTriangle(shape, mesh, i, transform, surface, tangents.empty() ? nullptr : &tangents[i]);
         ++count;
     }
     const std::size_t dropped = count - (scene.primitives.size() - first);
@@ -163,7 +179,7 @@ std::size_t ShapeLoader::add(const Reader& shape, const Mesh& mesh, const Transf
 }
 
 void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t index, const Transform& transform,
-                              const Surface& surface) {
+                              const Surface& surface, const Tangents* tangents) {
     const Mesh::Triangle& triangle = mesh.triangles[index];
     std::array<vec3, 3> points;
     for (std::size_t i = 0; i < 3; ++i) points[i] = place(transform, triangle.points[i]);
@@ -193,10 +209,9 @@ void ShapeLoader::addTriangle(const Reader& shape, const Mesh& mesh, std::size_t
         scene.textured.colors.resize(scene.primitives.size());
         scene.textured.colors.push_back(colors);
     }
-    const uint textured = scene.materials[surface.material].textures;
-    if (!mesh.tangents.empty() && textured != 0 && scene.textured.materials[textured - 1].normal != NONE) {
+    if (tangents != nullptr) {
         scene.textured.tangents.resize(scene.primitives.size());
-        scene.textured.tangents.push_back(transformed(mesh.tangents[index], transform));
+        scene.textured.tangents.push_back(transformed(*tangents, transform));
     }
     addFlat(shape, primitive);
 }

@@ -58,12 +58,14 @@ private:
     std::size_t addParts(Reader& shape, Reader& byName, const Mesh& mesh, const Transform& transform,
                          const Surface& surface);
     void addTriangle(const Reader& shape, const Mesh& mesh, std::size_t index, const Transform& transform,
-                     const Surface& surface);
+                     const Surface& surface, const Tangents* tangents);
     void addCoordinates(const Reader& shape, const Surface& surface, const TexturePlaces& first,
                         const TexturePlaces& second = {});
     void requireCoordinates(const Reader& shape, const Mesh& mesh, const Surface& surface);
     void warnOfFlatCoordinates(const Reader& shape, const Surface& surface, std::size_t first);
     bool isTextured(const Surface& surface) const;
+    uint normalMapOf(const Surface& surface) const;
+    std::vector<Tangents> tangentsFor(const Mesh& mesh, const Surface& surface) const;
 
     void requireRoom(const Reader& shape) const;
     vec3 place(const Transform& transform, glm::dvec3 point) const;
