@@ -1,5 +1,6 @@
 /// Skies, suns, points and spots: what they bring, against closed forms, and each layer against the path tracer.
 #include "draw.h"
+#include "images.h"
 #include "judge.h"
 #include "output/exr.h"
 #include "render_support.h"
@@ -426,6 +427,27 @@ TEST(Sky, MayBeUnseen) {
     EXPECT_NEAR(middle.mean.layers[LAYER_SPECULAR].y, 1, 1e-3);
 }
 
+// Colours of 8 bits are of sRGB, those of 16 linear; opacity counts for nothing.
+TEST(Sky, IsReadFromPng) {
+    writeScene(pngBytes<unsigned char>(1, 2, {255, 188, 0, 255, 10, 55, 128, 0}), "narrow.png");
+    writeScene(pngBytes<std::uint16_t>(1, 2, {65535, 32768, 0, 65535, 1, 2, 3, 65535}), "wide.png");
+    const auto texels = [](const char* file) {
+        json scene = floorScene();
+        scene["environment"] = {{"image", file}, {"strength", 2}};
+        std::vector<vec3> radiances;
+        for (const SkyTexel& texel : loadJson(scene).skyTexels) radiances.push_back(texel.radiance);
+        return radiances;
+    };
+    const auto near = [](vec3 found, vec3 expected) { return glm::length(found - 2.0f * expected) < 2e-6; };
+    const auto narrow = texels("narrow.png"), wide = texels("wide.png");
+    ASSERT_EQ(narrow.size(), 2u);
+    EXPECT_PRED2(near, narrow[0], vec3(1, 0.50288646f, 0)); // IEC 61966-2-1
+    EXPECT_PRED2(near, narrow[1], vec3(0.00303527f, 0.03820437f, 0.21586050f));
+    ASSERT_EQ(wide.size(), 2u);
+    EXPECT_PRED2(near, wide[0], vec3(1, 32768 / 65535.0f, 0));
+    EXPECT_PRED2(near, wide[1], vec3(1, 2, 3) / 65535.0f);
+}
+
 TEST(Sky, RefusalsNamePlaceAndLimit) {
     const auto refusal = [](const json& environment) {
         json scene = floorScene();
@@ -451,7 +473,7 @@ TEST(Sky, RefusalsNamePlaceAndLimit) {
         EXPECT_THAT(refusal({{"image", "bad.exr"}}), HasSubstr("in row 1, column 1, from 0"));
     }
     writeScene("GIF89a", "other.hdr");
-    EXPECT_THAT(refusal({{"image", "other.hdr"}}), HasSubstr("neither an OpenEXR nor a Radiance file"));
+    EXPECT_THAT(refusal({{"image", "other.hdr"}}), HasSubstr("allowed is a PNG, JPEG, OpenEXR or Radiance image"));
     json scene = floorScene();
     scene["lights"] = {sun({0, 0, 0}, 1)};
     EXPECT_THAT(errorOf(scene), HasSubstr("/lights/0/direction: the direction has length 0"));

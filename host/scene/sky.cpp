@@ -1,9 +1,11 @@
 /// Reading of skies.
 #include "scene/sky.h"
 #include "image/image.h"
+#include "image/picture.h"
 #include "scene/lights.h"
 #include "scene/luminance.h"
 #include "scene/text.h"
+#include "scene/textures.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -91,6 +93,20 @@ void addSky(Scene& scene, Raster image, dvec3 strength, bool visible) {
     if (shines) scene.lights.push_back({.radiance = vec3{mean}, .kind = LIGHT_SKY, .share = 1});
 }
 
+/// The colours of a PNG or JPEG image: those of 8 bits are of sRGB, those of 16 linear.
+Raster linearColors(const Picture& picture) {
+    requireTexels(picture.width, picture.height, sizeof(vec3), maxTexels);
+    Raster image{picture.width, picture.height, {}};
+    for (const vec4& texel : picture.floats) image.texels.emplace_back(texel);
+    for (const uint texel : picture.bytes) {
+        const auto channel = [&](uint shift) {
+            return static_cast<float>(linearOfSrgb((texel >> shift & 255) / 255.0));
+        };
+        image.texels.push_back({channel(0), channel(8), channel(16)});
+    }
+    return image;
+}
+
 Raster decode(const Reader& reader, const std::filesystem::path& file, Scene& scene) try {
     FileRead read;
     const std::string bytes = readBytes(file, maxImageBytes, "", &read);
@@ -98,19 +114,19 @@ Raster decode(const Reader& reader, const std::filesystem::path& file, Scene& sc
     Raster image;
     if (isExr(bytes)) image = decodeExr(bytes);
     else if (isHdr(bytes)) image = decodeHdr(bytes);
-    else throw InputError("is neither an OpenEXR nor a Radiance file, which begin with 76 2f 31 01 or #?RADIANCE");
+    else image = linearColors(decodePicture(bytes));
     if (const std::string bad = badTexels(image); !bad.empty()) throw InputError(bad);
     return image;
 } catch (const InputError& error) {
     reader.fail(fmt::format("{}: {}", printable(file.string()), error.what()),
-                "give an OpenEXR or Radiance file of finite texels >= 0");
+                "give an OpenEXR, Radiance, PNG or JPEG file of finite texels >= 0");
 }
 
 Raster readSkyImage(const Reader& reader, Scene& scene) {
     const std::filesystem::path file = reader.path().parent_path() / reader.text();
     if (const std::string problem = fileProblem(file, true); !problem.empty())
         reader.fail(fmt::format("{}: {}", printable(file.string()), problem),
-                    "give an OpenEXR or Radiance file, relative to the scene file");
+                    "give an OpenEXR, Radiance, PNG or JPEG file, relative to the scene file");
     Raster image = decode(reader, file, scene);
     return image.width < smoothWidth && image.height <= image.width ? smoothed(image) : image;
 }
