@@ -31,7 +31,8 @@ ShadowRay sampleDirectOf(DeviceScene scene, Light light, float probability, vec3
     vec3 w = seen.w;
     float arrival = cosineOfArrival(w, normal, shading, bulge);
     float cosine = arrival;
-    if (hasLayered) cosine = weightOfArrival(scene, materialOfArrival(scene, from, origin), w, normal, shading, bulge);
+    if (hasLayered)
+        cosine = weightOfArrival(scene, materialNear(scene, from, origin, SLOT_METALLIC), w, normal, shading, bulge);
     if (hasEndless && alsoFound && (seen.flags & SHADOW_ENDLESS) != 0u)
         cosine *= lightSampleWeight(seen.inversePdf / probability, unpackPdf(packPdf(arrival / PI)));
     vec3 radiance = seen.radiance * (cosine * seen.inversePdf / (PI * probability)) * weight;

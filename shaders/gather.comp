@@ -8,6 +8,7 @@
 #include "coverage.glsl"
 #include "density.glsl"
 #include "film_layout.glsl"
+#include "glossy_density.glsl"
 #include "labels.glsl"
 #include "radius_field.glsl"
 #include "shared_camera.h"
@@ -32,7 +33,10 @@ void main() {
         args.queries.at[slot].column = NONE;
     }
     vec3 inner;
-    vec3 irradiance = estimateWithin(args.map, query, radius, inner) * args.map.photonFlux;
+    vec3 irradiance = hasWide && query.viewer != NONE
+                          ? estimateGlossyWithin(DeviceScenePtr(args.scene).at[0], args.map, query, radius, inner)
+                          : estimateWithin(args.map, query, radius, inner);
+    irradiance *= args.map.photonFlux;
     if (args.scene != uvec2(0u) && maxComponent(irradiance) > 0.0) {
         vec2 factor = inverseCoverage(DeviceScenePtr(args.scene).at[0], query, radius);
         irradiance *= factor.x;

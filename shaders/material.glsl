@@ -169,20 +169,20 @@ Material materialAt(DeviceScene scene, Path path, Surface s, vec2 weights) {
     return glass;
 }
 
-// The material of a primitive as far as arrival at its diffuse lobe asks, at a place next to it.
-Material materialOfArrival(DeviceScene scene, uint primitive, vec3 position) {
+// The material of a primitive at a place next to it, without glass, and of its textures those from a slot on.
+Material materialNear(DeviceScene scene, uint primitive, vec3 position, uint first) {
     Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
     bool mixed = isMixed(m);
     if (mixed) m = MaterialPtr(scene.materials).at[m.base - 1u];
     if (hasTextures && m.textures != 0u)
-        m = texturedMaterial(scene, m, SLOT_METALLIC, primitive, weightsAt(scene, primitive, position), position);
+        m = texturedMaterial(scene, m, first, primitive, weightsAt(scene, primitive, position), position);
     if (mixed) takeBase(m);
     return m;
 }
 
-// The factor of arrival there.
+// The factor of arrival there, which does not depend on the colour.
 float diffuseArrivalAt(DeviceScene scene, uint primitive, vec3 position, float cosine) {
-    return hasLayered ? diffuseArrival(scene, materialOfArrival(scene, primitive, position), cosine) : 1.0;
+    return hasLayered ? diffuseArrival(scene, materialNear(scene, primitive, position, SLOT_METALLIC), cosine) : 1.0;
 }
 
 // The cosine with which light from direction w counts, see terminator.glsl, times the factor of arrival.
@@ -344,6 +344,7 @@ uint afterDiffuse(uint flags) {
 // The same after any lobe but the diffuse one.
 uint afterLobe(uint flags, bool wide) {
     if (wide) return afterDiffuse(flags) | afterSpecular(flags & PATH_SPECULARS) | PATH_WIDE;
+    if (hasWide && (flags & PATH_ASKED) != 0u) flags &= ~(PATH_WIDE | PATH_ASKED); // as after a diffuse vertex
     flags = afterSpecular(flags) | (diffuseCount(flags) == 0u ? PATH_EYE_SPECULAR : 0u);
     return hasWide ? flags | PATH_NARROW : flags;
 }

@@ -63,7 +63,7 @@ Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
             path.throughput *=
                 cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
     }
-    return Photon(surface.position, path.throughput, packUnit(normal));
+    return Photon(surface.position, path.throughput, packUnit(normal), hasWide ? packUnit(-path.direction) : 0u);
 }
 
 uint scatterAtDiffuse(uint bounce, inout Path path, Material material, Surface surface, vec3 normal, float survival,
@@ -85,7 +85,7 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind != through ? -surface.normal : surface.normal;
     float bulge = bulgeOn(surface, behind != through);
-    photon = Photon(vec3(0.0), vec3(0.0), 0u);
+    photon = Photon(vec3(0.0), vec3(0.0), 0u, 0u);
     if (through && bulge <= 0.0) return OUTCOME_ABSORBED;
     path.flags &= ~PATH_THROUGH;
 
@@ -116,11 +116,11 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     bool mapped = isMapped(surface);
     bool aimed = args.caustic != 0u && specularRun(path.flags) == 0u;
     bool ends = args.caustic != 0u && isWide(material);
-    photon = Photon(vec3(0.0), vec3(0.0), 0u);
+    photon = Photon(vec3(0.0), vec3(0.0), 0u, 0u);
     Path base = path;
     if (hasWide && ends && args.connected != 0u) {
         float arrived = abs(dot(path.direction, geometric));
-        photon = Photon(surface.position, path.throughput / max(arrived, 1e-6), packUnit(-path.direction));
+        photon = Photon(surface.position, path.throughput / max(arrived, 1e-6), packUnit(-path.direction), 0u);
         return OUTCOME_ABSORBED;
     }
     if (!aimed) {
@@ -194,6 +194,12 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
         deposit = PhotonDeposit(photon, slot, index);
     } else if (!isDiffuse(material)) {
         bool ends = args.caustic != 0u && isWide(material);
+        if (ends && reflectsWide(material)) {
+            vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
+            deposit = PhotonDeposit(
+                Photon(surface.position, path.throughput, packUnit(normal), packUnit(-path.direction)), slot, 0u);
+            arrives = maxComponent(path.throughput) > 0.0;
+        }
         outcome = ends ? OUTCOME_ABSORBED : scatterAtSpecular(bounce, path, material, surface, s);
     } else if (args.caustic != 0u && (path.flags & PATH_SPECULARS) == 0u) {
         return OUTCOME_ESCAPED; // aimed at a specular shape, but not one that it hit

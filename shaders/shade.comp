@@ -131,11 +131,12 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
 }
 
 // Asks a map, unless there is no such map or nobody asked for the layer.
-void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer) {
+void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer,
+                    uint viewer) {
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
-    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive);
+    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, viewer);
     vertex.queues |= 1u << queue;
 }
 
@@ -188,6 +189,16 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
+// Asks for caustics that a wide lobe shows: rays would find the lamp beyond glass by luck alone. Returns whether
+// photons have them.
+bool askForCaustics(inout Vertex vertex, Path path, Material material, Surface surface) {
+    if (!reflectsWide(material) || activeIntegrator() != INTEGRATOR_PHOTON || !showsCaustics()) return false;
+    vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
+    queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, path.throughput,
+                   diffuseCount(path.flags) == 0u ? LAYER_CAUSTIC : LAYER_INDIRECT, packUnit(-path.direction));
+    return true;
+}
+
 void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
                        BounceSampler s) {
     Interface at = Interface(path.media, NONE);
@@ -199,6 +210,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
+    bool asked = askForCaustics(vertex, path, material, surface);
     // At the first few vertices alone: each choice may double the weight of what goes on.
     if (diffuseCount(path.flags) == 0u && specularRun(path.flags) < 4u && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
         path.throughput *= chooseGlint(scene, material, surface, path.direction, u.x);
@@ -213,7 +225,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     if (!(maxComponent(throughput) > 0.0)) return;
     vec3 origin = hasTouching ? leaveInterface(scene, surface, at, event.direction) : leave(surface, event.direction);
     vertex.path = Path(origin, event.direction, throughput, wide ? 0.0 : path.distanceSinceDiffuse, surface.primitive,
-                       withPdf(afterLobe(path.flags, wide), event.pdf), media);
+                       withPdf(afterLobe(path.flags, wide) | (asked ? PATH_ASKED : 0u), event.pdf), media);
     vertex.queues |= 1u << QUEUE_CONTINUE;
     bool through = dot(path.direction, surface.normal) > 0.0 == dot(event.direction, surface.normal) > 0.0;
     vertex.event = hasGlossy && isGlossy(material) ? EVENT_GLOSSY : through ? EVENT_WENT_THROUGH : EVENT_REFLECTED;
@@ -232,8 +244,9 @@ void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface sur
 
     if (asksCaustics)
         queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, weight / PI,
-                       maps || first ? LAYER_CAUSTIC : LAYER_INDIRECT);
-    else if (maps || isFar) queryPhotonMap(vertex, QUEUE_GLOBAL, path, surface, normal, weight / PI, LAYER_INDIRECT);
+                       maps || first ? LAYER_CAUSTIC : LAYER_INDIRECT, NONE);
+    else if (maps || isFar)
+        queryPhotonMap(vertex, QUEUE_GLOBAL, path, surface, normal, weight / PI, LAYER_INDIRECT, NONE);
     if (maps || isFar) return;
 
     if (gathers && first) {

@@ -27,6 +27,7 @@ struct Query {
     uint column;     // of the samples; NONE: a map of narrow discs has answered
     float footprint; // radius that a pixel covers there
     uint primitive;  // that it is on
+    uint viewer;     // direction to it if it is a wide lobe that asks, octahedral 2 x 16 bit, else NONE
 };
 BUFFER(Query)
 

@@ -38,8 +38,9 @@ const uint PATH_SPECULARS = 63u * PATH_SPECULAR; // all of these that are counte
 const uint PATH_THROUGH = 1u << 7;               // goes through a smooth mesh, see terminator.glsl
 const uint PATH_NARROW = 1u << 8; // eye, of scenes with wide lobes: PATH_SPECULARS since the last wide event
 const uint PATH_WIDE = 1u << 9;   // eye: the last event but for those was wide
-const uint PATH_DIFFUSE_SHIFT = 10u;
-const uint MAX_DIFFUSE = 4095u;  // eye: vertices that are counted, wide ones among them
+const uint PATH_ASKED = 1u << 10; // eye: and photons have what comes to that vertex by narrow lobes
+const uint PATH_DIFFUSE_SHIFT = 11u;
+const uint MAX_DIFFUSE = 2047u;  // eye: vertices that are counted, wide ones among them
 const uint PATH_PDF_SHIFT = 22u; // eye, of scenes with glossy lobes or a sky: density of the last event, see packPdf
 const uint PATH_PDF_MASK = 0xffc00000u;
 BUFFER(Path)
