@@ -33,8 +33,8 @@ void main() {
         args.queries.at[slot].column = NONE;
     }
     vec3 inner;
-    vec3 irradiance = hasWide && query.viewer != NONE
-                          ? estimateGlossyWithin(DeviceScenePtr(args.scene).at[0], args.map, query, radius, inner)
+    vec3 irradiance = hasWide && query.lobes != BY_DIFFUSE
+                          ? estimateByLobes(DeviceScenePtr(args.scene).at[0], args.map, query, radius, inner)
                           : estimateWithin(args.map, query, radius, inner);
     irradiance *= args.map.photonFlux;
     if (args.scene != uvec2(0u) && maxComponent(irradiance) > 0.0) {

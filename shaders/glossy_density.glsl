@@ -1,4 +1,4 @@
-// What a wide lobe shows of the photons around it (as Jensen 1996 evaluates every lobe).
+// What a wide lobe, and the diffuse one beside it, show of the photons around (as Jensen 1996 evaluates all lobes).
 #ifndef GLOSSY_DENSITY_GLSL
 #define GLOSSY_DENSITY_GLSL
 #include "common.glsl"
@@ -38,11 +38,13 @@ vec3 glossyWeight(DeviceScene scene, Material m, Surface s, Query query, vec3 vi
     return arrived > 0.0 ? sent / arrived : vec3(0.0);
 }
 
-// Radiance by way of the lobe, per flux of a photon, as estimateWithin has the irradiance.
-vec3 estimateGlossyWithin(DeviceScene scene, PhotonMap map, Query query, float radius, out vec3 inner) {
+// Radiance by way of the lobes that ask, per flux of a photon, as estimateWithin has the irradiance.
+vec3 estimateByLobes(DeviceScene scene, PhotonMap map, Query query, float radius, out vec3 inner) {
     Material material = materialNear(scene, query.primitive, query.position, SLOT_COLOR);
     Surface surface = surfaceOf(scene, query, material);
-    vec3 viewer = unpackUnit(query.viewer);
+    vec3 viewer = unpackUnit(query.viewer), diffuse = vec3(0.0);
+    if ((query.lobes & BY_DIFFUSE) != 0u)
+        diffuse = diffuseAlbedo(scene, material, dot(viewer, scatteringNormal(surface, -viewer))) / PI;
     Cells cells = cellsAround(map, query.position, query.normal, radius);
     Sums sums = Sums(vec3(0.0), vec3(0.0));
     for (uint corner = 0u; corner < 8u; corner++) {
@@ -51,7 +53,7 @@ vec3 estimateGlossyWithin(DeviceScene scene, PhotonMap map, Query query, float r
             Photon photon = PhotonPtr(map.photons).at[i];
             vec3 d = photon.position - query.position;
             if (!isNear(d, query, radius) || !isOnSide(map, i, query)) continue;
-            vec3 weight = glossyWeight(scene, material, surface, query, viewer, unpackUnit(photon.direction));
+            vec3 weight = diffuse + glossyWeight(scene, material, surface, query, viewer, unpackUnit(photon.direction));
             addPhoton(map, photon.color * weight, dot(d, d), radius, sums);
         }
     }

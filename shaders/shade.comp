@@ -132,11 +132,12 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
 
 // Asks a map, unless there is no such map or nobody asked for the layer.
 void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer,
-                    uint viewer) {
+                    uint lobes) {
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
-    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, viewer);
+    vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, lobes,
+                         hasWide ? packUnit(-path.direction) : 0u);
     vertex.queues |= 1u << queue;
 }
 
@@ -189,18 +190,18 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
-// Asks for caustics that a wide lobe shows: rays would find the lamp beyond glass by luck alone. Returns whether
-// photons have them.
-bool askForCaustics(inout Vertex vertex, Path path, Material material, Surface surface) {
+// Asks for caustics that a wide lobe shows, alone or beside the diffuse one: rays would find the lamp beyond glass by
+// luck alone. Returns whether photons have them.
+bool askForCaustics(inout Vertex vertex, Path path, Material material, Surface surface, uint lobes) {
     if (!reflectsWide(material) || activeIntegrator() != INTEGRATOR_PHOTON || !showsCaustics()) return false;
     vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
     queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, path.throughput,
-                   diffuseCount(path.flags) == 0u ? LAYER_CAUSTIC : LAYER_INDIRECT, packUnit(-path.direction));
+                   diffuseCount(path.flags) == 0u ? LAYER_CAUSTIC : LAYER_INDIRECT, lobes);
     return true;
 }
 
 void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
-                       BounceSampler s) {
+                       bool asked, BounceSampler s) {
     Interface at = Interface(path.media, NONE);
     if (hasMedia) at = atInterface(scene, path, surface, material);
     vec2 u = bounceSample(s, 0u);
@@ -210,7 +211,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
-    bool asked = askForCaustics(vertex, path, material, surface);
+    asked = asked || askForCaustics(vertex, path, material, surface, BY_WIDE);
     // At the first few vertices alone: each choice may double the weight of what goes on.
     if (diffuseCount(path.flags) == 0u && specularRun(path.flags) < 4u && activeIntegrator() != INTEGRATOR_PHOTON_MAP)
         path.throughput *= chooseGlint(scene, material, surface, path.direction, u.x);
@@ -231,23 +232,31 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     vertex.event = hasGlossy && isGlossy(material) ? EVENT_GLOSSY : through ? EVENT_WENT_THROUGH : EVENT_REFLECTED;
 }
 
-void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 albedo, BounceSampler s) {
+// Whether the global map answers at a diffuse vertex: where gather rays end, unless that is so near that all they bring
+// hangs on a few photons.
+bool isFar(Path path) {
+    return activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u &&
+           path.distanceSinceDiffuse >= args.nearDistance;
+}
+
+// `asked`: the caustics are asked for.
+void shadeDiffuse(inout Vertex vertex, DeviceScene scene, Path path, Surface surface, vec3 albedo, bool asked,
+                  BounceSampler s) {
     bool behind = dot(path.direction, surface.normal) > 0.0;
     vec3 normal = behind ? -surface.normal : surface.normal;
     vec3 shading = behind ? -surface.shading : surface.shading;
     float bulge = bulgeOn(surface, behind);
     bool first = diffuseCount(path.flags) == 0u;
     bool maps = activeIntegrator() == INTEGRATOR_PHOTON_MAP, gathers = activeIntegrator() == INTEGRATOR_PHOTON;
-    bool isFar = gathers && !first && path.distanceSinceDiffuse >= args.nearDistance;
-    bool asksCaustics = !isFar && (maps || gathers) && showsCaustics();
+    bool far = isFar(path), asksCaustics = !asked && !far && (maps || gathers) && showsCaustics();
     vec3 weight = maps ? path.throughput : path.throughput * albedo;
 
     if (asksCaustics)
         queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, weight / PI,
-                       maps || first ? LAYER_CAUSTIC : LAYER_INDIRECT, NONE);
-    else if (maps || isFar)
-        queryPhotonMap(vertex, QUEUE_GLOBAL, path, surface, normal, weight / PI, LAYER_INDIRECT, NONE);
-    if (maps || isFar) return;
+                       maps || first ? LAYER_CAUSTIC : LAYER_INDIRECT, BY_DIFFUSE);
+    else if (maps || far)
+        queryPhotonMap(vertex, QUEUE_GLOBAL, path, surface, normal, weight / PI, LAYER_INDIRECT, BY_DIFFUSE);
+    if (maps || far) return;
 
     if (gathers && first) {
         storeSplit(vertex, path, surface, normal, shading, bulge, weight);
@@ -309,14 +318,16 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
     bool diffuse = isDiffuse(material), continues = continuesAfterLobe(path, isWideHere(material));
     float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
+    bool asked = false;
     if (hasLayered && diffuse && isSpecular(material)) {
+        if (!isFar(path)) asked = askForCaustics(vertex, path, material, surface, BY_DIFFUSE | BY_WIDE);
         // One of the lobes, and a weight that makes up for the choice.
         float glossy = continues ? glossyProbability(scene, material, cosine) : 0.0;
         diffuse = bounceSample(s, 2u).y >= glossy;
         path.throughput /= diffuse ? 1.0 - glossy : glossy;
     }
-    if (diffuse) shadeDiffuse(vertex, scene, path, surface, diffuseAlbedo(scene, material, cosine), s);
-    else if (continues) scatterAtSpecular(vertex, scene, path, material, surface, s);
+    if (diffuse) shadeDiffuse(vertex, scene, path, surface, diffuseAlbedo(scene, material, cosine), asked, s);
+    else if (continues) scatterAtSpecular(vertex, scene, path, material, surface, asked, s);
     return vertex;
 }
 

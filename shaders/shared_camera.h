@@ -27,8 +27,11 @@ struct Query {
     uint column;     // of the samples; NONE: a map of narrow discs has answered
     float footprint; // radius that a pixel covers there
     uint primitive;  // that it is on
-    uint viewer;     // direction to it if it is a wide lobe that asks, octahedral 2 x 16 bit, else NONE
+    uint lobes;      // that ask, BY_...
+    uint viewer;     // direction to it, octahedral 2 x 16 bit, if a wide one does
 };
+const uint BY_DIFFUSE = 1u; // alone its albedo / pi is in the weight
+const uint BY_WIDE = 2u;
 BUFFER(Query)
 
 /// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays
