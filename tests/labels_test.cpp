@@ -2,6 +2,7 @@
 /// has changes no beauty.
 #include "draw.h"
 #include "render_support.h"
+#include "scene_text.h"
 #include <gtest/gtest.h>
 
 namespace vkpm {
@@ -62,6 +63,23 @@ TEST(Labels, MoveNoBeauty) {
     for (const float wideAlpha : {0.1f, 0.5f})
         expectSame(means(room(wideAlpha), INTEGRATOR_PHOTON, 24).back(), byPhotons().back(), 0.02, 0.003,
                    std::to_string(wideAlpha));
+}
+
+// Rough metal and plastic in the sun behind a pane: no ray that they reflect finds the sun beyond glass but by luck,
+// and what does is thousands of times too bright. Photons show it, as light tracing does.
+TEST(Labels, RoughSurfacesShowCausticsOfASun) {
+    const Scene scene = loadText(R"({
+        "camera": {"origin": [0, 0.8, 1.5], "target": [0, 0.1, 0], "up": [0, 1, 0], "fieldOfView": 50},
+        "film": {"size": [24, 18]},
+        "materials": {"metal": {"type": "metal", "reflectance": [0.9, 0.7, 0.4], "roughness": 0.6},
+                      "plastic": {"type": "plastic", "albedo": [0.1, 0.2, 0.3], "roughness": 0.6},
+                      "pane": {"type": "glass", "ior": 1.5, "thin": true}},
+        "lights": [{"type": "sun", "direction": [-1, 2, -2], "irradiance": 3}],
+        "shapes": [{"type": "rectangle", "corner": [-2, 0, 2], "edges": [[2, 0, 0], [0, 0, -4]], "material": "metal"},
+                   {"type": "rectangle", "corner": [0, 0, 2], "edges": [[2, 0, 0], [0, 0, -4]], "material": "plastic"},
+                   {"type": "rectangle", "corner": [-4, 1, 4], "edges": [[8, 0, 0], [0, 0, -8]], "material": "pane"}]})");
+    expectSame(means(scene, INTEGRATOR_PHOTON, 4)[LAYER_CAUSTIC], means(scene, INTEGRATOR_LIGHT, 8)[LAYER_CAUSTIC],
+               0.04, 0.003, "caustics");
 }
 
 } // namespace
