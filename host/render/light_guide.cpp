@@ -17,7 +17,7 @@ const uint pointsApart = 8, maxLightsEach = 64; // one point of so many is asked
                                                 // is asked about at 64 points
 const uint maxLightsByRegion = 8;               // of more lights, the distribution is the same everywhere
 const uint skySamples = 32;                     // to each point
-const std::size_t pointsOfRegion = 64;          // at least
+const std::size_t pointsOfRegion = 64;          // about, at most twice as many
 const double bySky = 0.25;                      // of a tree's samples go by the sky alone
 const double minSkyGain = 1.3;                  // of the variance of such samples, for which they are guided
 
@@ -36,7 +36,8 @@ void mixUniform(std::vector<GuideNode>& nodes, uint box, double mass, double vol
     node.lower = static_cast<float>(mixed(lower, volume / 2) / mixed(mass, volume));
 }
 
-/// Cuts space at medians of points until each region has few, and gives each a tree over the numbers of its samples.
+/// Cuts space at about the medians of points until each region has few, and gives each a tree over the numbers of its
+/// samples.
 class Regions {
 public:
     Regions(std::span<const Split> places, std::span<const LightContribution> brought, uint lightsEach)
@@ -55,7 +56,7 @@ public:
 
 private:
     void build(std::span<uint> held, uint node) {
-        if (held.size() >= 2 * pointsOfRegion && cut(held, node)) return;
+        if (held.size() > 2 * pointsOfRegion && cut(held, node)) return;
         // The lights of all space are first.
         const auto firstLight = static_cast<float>(lights * (1 + points.size()));
         nodes[node] = {LIGHT_GUIDE_REGION, firstLight, static_cast<uint>(nodes.size())};
@@ -71,13 +72,16 @@ private:
         const int axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
         const auto along = [&](uint i) { return splits[i].origin[axis]; };
         std::ranges::sort(held, {}, [&](uint i) { return std::pair{along(i), i}; });
-        const std::size_t half = held.size() / 2;
-        if (!(along(held[half - 1]) < along(held[half]))) return false;
+        // Many may lie in one plane, which is left whole.
+        const auto [first, last] = std::ranges::equal_range(held, along(held[held.size() / 2]), {}, along);
+        const auto middle = first != held.begin() ? first : last;
+        if (middle == held.end()) return false;
+        const auto lower = static_cast<std::size_t>(middle - held.begin());
         const uint child = static_cast<uint>(nodes.size());
-        nodes[node] = {static_cast<uint>(axis), along(held[half]), child};
+        nodes[node] = {static_cast<uint>(axis), along(*middle), child};
         nodes.resize(child + 2);
-        build(held.first(half), child);
-        build(held.subspan(half), child + 1);
+        build(held.first(lower), child);
+        build(held.subspan(lower), child + 1);
         return true;
     }
 
