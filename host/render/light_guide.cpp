@@ -16,10 +16,15 @@ namespace {
 const uint pointsApart = 8, maxLightsEach = 64; // one point of so many is asked about that many lights, so that each
                                                 // is asked about at 64 points
 const uint maxLightsByRegion = 8;               // of more lights, the distribution is the same everywhere
-const uint skySamples = 32;                     // to each point
-const std::size_t pointsOfRegion = 64;          // about, at most twice as many
-const double bySky = 0.25;                      // of a tree's samples go by the sky alone
-const double minSkyGain = 1.3;                  // of the variance of such samples, for which they are guided
+
+/// How finely the sky is asked about.
+struct Fineness {
+    uint samples;       // to each point
+    std::size_t points; // of a region, about, at most twice as many
+};
+const Fineness coarse{4, 512}, fine{32, 64}; // to tell whether a guide is of use, and to make it
+const double minSkyGain = 2;                 // of the variance of samples of the sky, for which they are guided
+const double bySky = 0.25;                   // of a tree's samples go by the sky alone
 
 double probability(std::span<const float> cdf, std::size_t i) {
     return double{cdf[i]} - (i > 0 ? double{cdf[i - 1]} : 0);
@@ -40,23 +45,25 @@ void mixUniform(std::vector<GuideNode>& nodes, uint box, double mass, double vol
 /// samples.
 class Regions {
 public:
-    Regions(std::span<const Split> places, std::span<const LightContribution> brought, uint lightsEach)
-        : splits(places), samples(brought), lights(lightsEach) {
+    Regions(std::span<const Split> places, std::span<const LightContribution> brought, Fineness how, uint lightsEach)
+        : splits(places), samples(brought), fineness(how), lights(lightsEach) {
         std::vector<uint> seen;
         for (uint i = 0; i < splits.size(); i++)
             if (splits[i].flags != NONE) seen.push_back(i);
         if (seen.empty()) return;
         nodes.push_back({});
         build(seen, 0);
-        if (all < minSkyGain * left) nodes.clear(), points.clear();
     }
 
-    std::vector<GuideNode> nodes;          // none: samples are as good without
+    /// The variance of samples without a guide over that of guided ones.
+    double gain() const { return left > 0 ? all / left : 1; }
+
+    std::vector<GuideNode> nodes;
     std::vector<std::vector<uint>> points; // by region
 
 private:
     void build(std::span<uint> held, uint node) {
-        if (held.size() > 2 * pointsOfRegion && cut(held, node)) return;
+        if (held.size() > 2 * fineness.points && cut(held, node)) return;
         // The lights of all space are first.
         const auto firstLight = static_cast<float>(lights * (1 + points.size()));
         nodes[node] = {LIGHT_GUIDE_REGION, firstLight, static_cast<uint>(nodes.size())};
@@ -88,7 +95,7 @@ private:
     void addTree(std::span<const uint> held) {
         std::vector<PrimarySample> starts;
         for (const uint i : held)
-            for (const LightContribution& sample : samples.subspan(std::size_t(i) * skySamples, skySamples))
+            for (const LightContribution& sample : samples.subspan(std::size_t(i) * fineness.samples, fineness.samples))
                 starts.push_back({.numbers = {0, 0, sample.numbers.x, sample.numbers.y, 0, 0, 0},
                                   .weight = sample.value,
                                   .inverseDensity = 1,
@@ -110,6 +117,7 @@ private:
 
     std::span<const Split> splits;
     std::span<const LightContribution> samples;
+    Fineness fineness;
     uint lights;
     double all = 0, left = 0; // variance, in parts of that of a point without a guide
 };
@@ -174,8 +182,12 @@ void learnLights(Gpu& gpu, UploadedScene& scene, const Features& features, uint 
     scene.chooseLights(gpu, cdf);
     if (!needs.sky) return;
     const bool choose = lights > 1 && lights <= maxLightsByRegion;
-    const Regions regions(splits.download(), ask(skySamples, 1, *needs.sky, false), choose ? lights : 0);
-    if (regions.nodes.empty()) return;
+    const std::vector<Split> seen = splits.download();
+    const auto learned = [&](Fineness how) {
+        return Regions(seen, ask(how.samples, 1, *needs.sky, false), how, choose ? lights : 0);
+    };
+    if (learned(coarse).gain() < minSkyGain) return;
+    const Regions regions = learned(fine);
     const std::vector<float> everywhere = cdf;
     for (std::size_t i = 0; choose && i < regions.points.size(); i++)
         cdf.insert(cdf.end(), everywhere.begin(), everywhere.end());
