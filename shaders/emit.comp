@@ -72,7 +72,7 @@ void main() {
     if (hasGuide && args.guide != uvec2(0u)) inverseDensity = guide(GuideNodePtr(args.guide), numbers);
 
     // A light in proportion to its flux.
-    uint chosen = chooseLight(scene, scene.lightCdf, numbers[PRIMARY_LIGHT]);
+    uint chosen = chooseLight(scene, scene.lightCdf, 0u, numbers[PRIMARY_LIGHT]);
     Light light = LightPtr(scene.lights).at[chosen];
     requireLight(scene, light);
     vec3 color;

@@ -30,16 +30,16 @@ LightSample sampleByArea(Light light, LightPoint point, vec3 origin) {
     return LightSample(point, inversePdfByArea(light, point.normal, point.position - origin));
 }
 
-// The light whose part of the unit interval holds u.
-uint chooseLight(DeviceScene scene, uvec2 cdf, float u) {
+// The light whose part of the unit interval holds u, by upper ends from the `first` number on.
+uint chooseLight(DeviceScene scene, uvec2 cdf, uint first, float u) {
     if (!hasManyLights) return 0u;
-    return firstAbove(cdf, 0u, 1u, scene.lightCount, u);
+    return firstAbove(cdf, first, 1u, scene.lightCount, u);
 }
 
 // The probability of being chosen.
-float lightProbability(uvec2 cdf, uint light) {
+float lightProbability(uvec2 cdf, uint first, uint light) {
     if (!hasManyLights) return 1.0;
-    return floatPtr(cdf).at[light] - (light > 0u ? floatPtr(cdf).at[light - 1u] : 0.0);
+    return floatPtr(cdf).at[first + light] - (light > 0u ? floatPtr(cdf).at[first + light - 1u] : 0.0);
 }
 
 bool isTwoSided(Light light) { return hasTwoSidedLights && light.twoSided != 0u; }

@@ -67,19 +67,53 @@ SkyPoint sampleSky(DeviceScene scene, vec2 u) {
                     solidAngleOfTexel(sky, row.index) / (row.width * column.width));
 }
 
-// What comes from a direction; the solid angle is 0 where samples never go.
-SkyPoint skyAt(DeviceScene scene, vec3 w) {
-    Sky sky = SkyPtr(scene.sky).at[0];
+// Where a direction lies in the picture: its texel and the place in that, as in skyDirection.
+struct SkyPlace {
+    uint row;
+    uint column;
+    vec2 within;
+};
+
+SkyPlace skyPlace(Sky sky, vec3 w) {
     vec3 p = vec3(dot(w, sky.front), dot(w, sky.right), dot(w, sky.up));
     uint row = min(uint(angleAbove(vec2(p.z, length(p.xy))) * (float(sky.height) / PI)), sky.height - 1u);
     float turn = angleAbove(vec2(p.x, abs(p.y))) / (2.0 * PI);
-    uint column = min(uint((0.5 + (p.y < 0.0 ? -turn : turn)) * float(sky.width)), sky.width - 1u);
+    float columns = (0.5 + (p.y < 0.0 ? -turn : turn)) * float(sky.width);
+    uint column = min(uint(columns), sky.width - 1u);
+    bool below = row >= (sky.height + 1u) / 2u;
+    uint fromPole = below ? sky.height - 1u - row : row;
+    float rest = dot(p.xy, p.xy) / (1.0 + abs(p.z)); // 1 - |p.z|
+    float height = (below ? -p.z : p.z) < 0.0 ? 2.0 - rest : rest;
+    vec2 within = vec2((height - heightOfRow(sky, fromPole)) / cosinesOfRow(sky, fromPole), columns - float(column));
+    return SkyPlace(row, column, clamp(within, 0.0, BELOW_ONE));
+}
+
+// The parts of the unit interval that lead to a texel: row first, then column.
+vec2 partsOf(Sky sky, uint row, uint column, out vec2 before) {
     uint index = row * sky.width + column;
-    float rowBefore = row > 0u ? floatPtr(sky.rows).at[row - 1u] : 0.0;
-    float before = column > 0u ? SkyTexelPtr(sky.texels).at[index - 1u].cdf : 0.0;
-    SkyTexel texel = SkyTexelPtr(sky.texels).at[index];
-    float probability = (floatPtr(sky.rows).at[row] - rowBefore) * (texel.cdf - before);
-    return SkyPoint(w, texel.radiance, probability > 0.0 ? solidAngleOfTexel(sky, row) / probability : GREATEST);
+    before = vec2(row > 0u ? floatPtr(sky.rows).at[row - 1u] : 0.0,
+                  column > 0u ? SkyTexelPtr(sky.texels).at[index - 1u].cdf : 0.0);
+    return vec2(floatPtr(sky.rows).at[row], SkyTexelPtr(sky.texels).at[index].cdf) - before;
+}
+
+// The numbers by which sampleSky comes to a direction.
+vec2 numbersOfSky(DeviceScene scene, vec3 w) {
+    Sky sky = SkyPtr(scene.sky).at[0];
+    SkyPlace place = skyPlace(sky, w);
+    vec2 before;
+    vec2 parts = partsOf(sky, place.row, place.column, before);
+    return min(before + parts * place.within, BELOW_ONE);
+}
+
+// What comes from a direction; the solid angle is 0 where samples never go.
+SkyPoint skyAt(DeviceScene scene, vec3 w) {
+    Sky sky = SkyPtr(scene.sky).at[0];
+    SkyPlace place = skyPlace(sky, w);
+    vec2 before;
+    vec2 parts = partsOf(sky, place.row, place.column, before);
+    float probability = parts.x * parts.y;
+    return SkyPoint(w, SkyTexelPtr(sky.texels).at[place.row * sky.width + place.column].radiance,
+                    probability > 0.0 ? solidAngleOfTexel(sky, place.row) / probability : GREATEST);
 }
 
 #endif

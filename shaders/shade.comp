@@ -113,9 +113,10 @@ void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
         if (!hasLayer(layer)) return;
         vertex.emissionColumn = layerColumn(layer);
         path.throughput *= args.splits.at[slot].throughput;
-        vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
+        vertex.emission = path.throughput *
+                          radianceBeyond(scene, lightGuideAt(scene, path.origin), path.direction, pdfOf(path.flags));
     } else if (findsLight(vertex, path))
-        vertex.emission = path.throughput * radianceBeyond(scene, path.direction, pdfOf(path.flags));
+        vertex.emission = path.throughput * radianceBeyond(scene, UNGUIDED, path.direction, pdfOf(path.flags));
 }
 
 // Asks for one light sample.
@@ -125,7 +126,7 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (!hasLayer(layer)) return;
     vec3 origin = offsetPoint(surface.position, surface.magnitude, normal);
     vertex.shadowRay = sampleDirect(scene, origin, surface.primitive, normal, shading, bulge, weight,
-                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), false);
+                                    columnOf(path, layer), bounceSample(s, 0u), bounceSample(s, 1u), UNGUIDED, false);
     attenuateShadowRay(vertex, scene, path.media);
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }

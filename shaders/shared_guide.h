@@ -19,14 +19,23 @@ struct MarkVisibleArgs {
     float reach;     // part of a query's footprint that it marks, if that is more than the map's radius there
 };
 
+/// What a light sample brings to a place.
+struct LightContribution {
+    vec2 numbers; // that chose the sample on its light
+    float value;  // luminance
+};
+BUFFER(LightContribution)
+
 struct LightContributionArgs {
     PTR(DeviceScene) scene;
     PTR(Split) splits;
-    PTR(float) values; // [split][light of it]: luminance that it brings
-    uint count;        // of values
-    uint lightsEach;   // lights that a split is asked about
-    uint stride;       // one split of so many is asked
+    PTR(LightContribution) values; // [split][question to it]
+    uint count;                    // of values
+    uint each;                     // questions to a split
+    uint stride;                   // one split of so many is asked
     uint seed;
+    uint light;  // what it brings to a white surface, again and again; NONE: lights in turn
+    uint guided; // 1: directions of the sky by the light guide
 };
 
 struct PhotonContributionArgs {

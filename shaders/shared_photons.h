@@ -32,14 +32,6 @@ const uint PRIMARY_POSITION = 2u;
 const uint PRIMARY_DIRECTION = 4u;
 const uint PRIMARY_TARGET = 6u;
 
-/// A box of such numbers, cut in the middle of an axis into children `child` (lower numbers) and `child` + 1.
-struct GuideNode {
-    uint axis;   // NONE: a leaf
-    float lower; // part of the photons of the box that the lower half gets
-    uint child;
-};
-BUFFER(GuideNode)
-
 /// How a photon was started, and how useful it was.
 struct PrimarySample {
     float numbers[PRIMARY_DIMENSIONS];

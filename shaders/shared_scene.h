@@ -134,6 +134,17 @@ struct Target {
 };
 BUFFER(Target)
 
+/// A box of numbers that choose what to sample, cut in the middle of an axis into children `child` (lower numbers) and
+/// `child` + 1. In a light guide regions of space come first, which are cut anywhere.
+struct GuideNode {
+    uint axis;   // NONE: a leaf
+    float lower; // part of the samples of the box that the lower half gets; of space, where it is cut
+    uint child;
+};
+BUFFER(GuideNode)
+const uint LIGHT_GUIDE_REGION = 3u; // axis of a region that is not cut: `child` is the root of its tree over numbers,
+                                    // `lower` the index of its first light in DeviceScene.directCdf
+
 /// A camera; through the middle of its lens the ray of film position (x, y) in [0, 1]^2, y down, has the direction
 /// forward + (2 x - 1) right + (1 - 2 y) up, where |right| and |up| are the tangents of the half angles.
 struct Camera {
@@ -153,8 +164,9 @@ struct DeviceScene {
     ADDRESS(Normals) normals;
     ADDRESS(Material) materials;
     ADDRESS(Light) lights;
-    ADDRESS(float) lightCdf;  // of photons: upper ends, the last is 1
-    ADDRESS(float) directCdf; // of light samples, likewise
+    ADDRESS(float) lightCdf;       // of photons: upper ends, the last is 1
+    ADDRESS(float) directCdf;      // of light samples, likewise; then those of regions, see light_guide.glsl
+    ADDRESS(GuideNode) lightGuide; // see light_guide.glsl
     ADDRESS(Target) targets;
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers

@@ -25,9 +25,9 @@ bool gathers(Split from) {
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray =
-        sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
-                     args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u), gathers(from));
+    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
+                                 args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
+                                 lightGuideAt(args.scene.at[0], from.origin), gathers(from));
     if (hasMedia) ray.radiance *= shadowTransmittance(args.scene.at[0], from.media, ray);
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
@@ -39,7 +39,8 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
     float arrival = diffuseArrivalAt(args.scene.at[0], from.from, from.origin, dot(direction, from.shading));
     if (!departs(direction, from.normal, from.bulge)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
-    if (hasEndless) flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
+    if (hasEndless && (flags & PATH_THROUGH) == 0u) // else light samples have all of the sky
+        flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
     args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags, from.media);
     return true;
 }

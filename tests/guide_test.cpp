@@ -323,6 +323,70 @@ TEST(Guide, LampsOfOtherRoomsGetFewPhotons) { expectUnbiasedAndLessNoisy(rooms()
 
 TEST(Guide, LightSamplesGoWhereLightComesFrom) { expectUnbiasedAndLessNoisy(rooms(), LAYER_DIRECT, 0.5); }
 
+/// A room with a window, and the sky and the sun outside.
+Scene roomWithWindow() {
+    nlohmann::json shapes = nlohmann::json::array();
+    const auto wall = [&](nlohmann::json corner, nlohmann::json u, nlohmann::json v) {
+        shapes.push_back({{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", "grey"}});
+    };
+    wall({0, 0, 0}, {4, 0, 0}, {0, 0, 4});
+    wall({0, 2, 0}, {4, 0, 0}, {0, 0, 4});
+    wall({0, 0, 0}, {4, 0, 0}, {0, 2, 0});
+    wall({0, 0, 4}, {4, 0, 0}, {0, 2, 0});
+    wall({4, 0, 0}, {0, 2, 0}, {0, 0, 4});
+    wall({0, 0, 0}, {0, 0.9, 0}, {0, 0, 4});
+    wall({0, 1.7, 0}, {0, 0.3, 0}, {0, 0, 4});
+    wall({0, 0.9, 0}, {0, 0.8, 0}, {0, 0, 1.5});
+    wall({0, 0.9, 2.5}, {0, 0.8, 0}, {0, 0, 1.5});
+    return loadJson({{"camera", {{"origin", {3.9, 1, 3.9}}, {"target", {1, 0.8, 0}}, {"fieldOfView", 70}}},
+                     {"environment", {{"radiance", 1}}},
+                     {"lights", {{{"type", "sun"}, {"direction", {-1, 0.7, 0.5}}, {"irradiance", 2}}}},
+                     {"materials", {{"grey", {{"type", "diffuse"}, {"albedo", 0.6}}}}},
+                     {"shapes", shapes}});
+}
+
+TEST(Guide, SkySamplesGoThroughTheWindow) { expectUnbiasedAndLessNoisy(roomWithWindow(), LAYER_DIRECT, 0.4); }
+
+// Two regions, left and right of x = 0, with a tree each. A direction says which factor its numbers had; numbers at the
+// edge of a box may round to either side.
+TEST(Guide, DirectionsOfTheSkyKnowTheirDensity) {
+    const std::vector<GuideNode> nodes{{0, 0, 1},
+                                       {LIGHT_GUIDE_REGION, 2, 3},
+                                       {LIGHT_GUIDE_REGION, 4, 8},
+                                       {0, 0.7f, 4},
+                                       {1, 0.2f, 6},
+                                       {NONE, 0, 0},
+                                       {NONE, 0, 0},
+                                       {NONE, 0, 0},
+                                       {1, 0.9f, 9},
+                                       {0, 0.4f, 11},
+                                       {NONE, 0, 0},
+                                       {NONE, 0, 0},
+                                       {NONE, 0, 0}};
+    const uint count = 1u << 16;
+    Random random(11);
+    std::vector<VectorPair> cases(count);
+    for (uint i = 0; i < count; i++) cases[i] = {{random.between(-1, 1), 0, 0}, {random.unit(), random.unit(), 0}};
+    for (const Scene& scene : {roomWithWindow(), shippedScene("window_room")}) {
+        UploadedScene uploaded(testGpu(), scene, smallSettings(scene, true));
+        uploaded.guideLights(testGpu(), nodes);
+        const Buffer<VectorPair> xs(testGpu(), "xs", cases), ys(testGpu(), "ys", count);
+        const Kernel<MapArgs> kernel(testGpu(), "guided_sky");
+        Recording recording(testGpu());
+        recording.run(kernel, count, {{xs.address}, {ys.address}, uploaded.address, {}, count});
+        recording.submit();
+        Mean all;
+        uint off = 0, i = 0;
+        for (const VectorPair& found : ys.download()) {
+            ASSERT_EQ(found.a.z, cases[i++].a.x < 0 ? 2 : 4);
+            all.add(double(found.a.x));
+            off += std::abs(found.a.x - found.a.y) > 1e-5f * found.a.x;
+        }
+        EXPECT_NEAR(all.mean(), 1, 0.03); // 4 standard errors
+        EXPECT_LE(off, count / 2000);
+    }
+}
+
 TEST(Guide, FeatureTellsWhetherThereIsOne) {
     const auto guides = [](const Scene& scene, bool wanted) {
         Renderer renderer(testGpu(), scene, smallSettings(scene, wanted));

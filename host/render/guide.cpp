@@ -13,8 +13,6 @@ namespace vkpm {
 const double eyePaths = 8192; // wanted
 const uint maxEyePaths = 1u << 14;
 const uint eyeGatherRays = 1;
-const uint pointsApart = 8, maxLightsEach = 64;             // one point of so many is asked about that many lights,
-const uint maxLights = 1024;                                // so that each is asked about at 64 points
 const uint firstPhotons = 1u << 13, morePhotons = 1u << 15; // of the first and of other rounds
 const uint maxRounds = 3;
 const std::size_t enoughToTell = 30,
@@ -59,7 +57,9 @@ GuideNeeds::GuideNeeds(const Scene& scene) {
     axes[PRIMARY_SIDE] = std::ranges::any_of(scene.lights, [](const Light& light) { return light.twoSided != 0; });
     axes[PRIMARY_TARGET] = scene.targets.size() > 1;
     middle = scene.discCount > 1;
-    lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLights;
+    lights = axes[PRIMARY_LIGHT] && scene.lights.size() <= maxLightsLearned;
+    const auto found = std::ranges::find(scene.lights, LIGHT_SKY, &Light::kind);
+    if (found != scene.lights.end()) sky = static_cast<uint>(found - scene.lights.begin());
     global = axes[PRIMARY_LIGHT] || std::ranges::any_of(scene.lights, [&](const Light& light) {
                  return isEndless(light) || isFar(scene, light);
              });
@@ -93,49 +93,6 @@ Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features,
         guide.density = static_cast<float>(tree.density);
     }
     return guide;
-}
-
-/// Roots of the mean squares of what lights bring to a point, in parts of all light there; dim points, where nobody
-/// sees noise, count less. Two answers that a light brings what its flux lets expect stand for what was not asked.
-static std::vector<double> lightWeights(std::span<const float> values, std::span<const float> cdf, std::size_t each) {
-    const std::size_t lights = cdf.size();
-    std::vector<double> all(values.size() / each), squares(lights), asked(lights);
-    double mean = 0, found = 0, expected = 0;
-    for (std::size_t i = 0; i < values.size(); i++) all[i / each] += double(values[i]) * double(lights) / double(each);
-    for (const double light : all) mean += light / double(all.size());
-    const auto flux = [&](std::size_t light) { return double(cdf[light]) - (light > 0 ? double(cdf[light - 1]) : 0); };
-    for (std::size_t i = 0; i < values.size() && mean > 0; i++) {
-        const double part = values[i] / (all[i / each] + 0.1 * mean);
-        squares[i % lights] += part * part;
-        asked[i % lights]++;
-        found += part * part;
-        expected += flux(i % lights) * flux(i % lights);
-    }
-    std::vector<double> weights(lights);
-    for (std::size_t i = 0; i < lights; i++)
-        weights[i] =
-            std::sqrt((squares[i] + 2 * flux(i) * flux(i) * (found > 0 ? found / expected : 1)) / (asked[i] + 2));
-    return weights;
-}
-
-std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed,
-                                          const CameraPilot& places, std::span<const float> byFlux) {
-    const uint lights = static_cast<uint>(byFlux.size()), each = std::min(lights, maxLightsEach);
-    const uint points = static_cast<uint>(places.paths.splitPoints().size()) / pointsApart;
-    const Buffer<float> values(gpu, "light values", std::uint64_t(points) * each);
-    const Kernel<LightContributionArgs> weigh(gpu, "light_contribution", features);
-    Recording recording(gpu);
-    recording.run(weigh, values.size(),
-                  {scene.address, places.paths.splitPoints(), values, points * each, each, pointsApart, seed});
-    recording.submit();
-    std::vector<float> brought = values.download();
-    std::ranges::replace_if(
-        brought, [](float value) { return !std::isfinite(value); }, 0.0f);
-    std::vector<double> weights = lightWeights(brought, byFlux, each);
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (uint i = 0; i < lights; i++)
-        weights[i] = 0.9 * weights[i] / total + 0.1 * (double(byFlux[i]) - (i > 0 ? double(byFlux[i - 1]) : 0));
-    return cumulative(weights);
 }
 
 } // namespace vkpm

@@ -4,6 +4,7 @@
 #include "render/guide_tree.h"
 #include "render/photon_tracing.h"
 #include "shared_photons.h"
+#include <optional>
 
 namespace vkpm {
 
@@ -18,14 +19,17 @@ public:
     CameraPaths paths;
 };
 
+const uint maxLightsLearned = 1024; // of more, light samples choose by flux
+
 /// What of guiding a scene can make use of.
 struct GuideNeeds {
     explicit GuideNeeds(const Scene& scene);
 
     std::array<bool, PRIMARY_DIMENSIONS> axes; // numbers that matter
-    bool global; // photons of the global map, which go everywhere if there is one lamp and it is near
-    bool middle; // whether the global map's are aimed at the middle, too
-    bool lights; // light samples, if there are lights to choose from
+    bool global;             // photons of the global map, which go everywhere if there is one lamp and it is near
+    bool middle;             // whether the global map's are aimed at the middle, too
+    bool lights;             // light samples, if there are lights to choose from
+    std::optional<uint> sky; // light, of which light samples choose directions
 };
 
 /// What was learned of the photons of a map.
@@ -40,11 +44,5 @@ struct Guide {
 /// little to gain.
 Guide learnGuide(Gpu& gpu, const UploadedScene& scene, const Features& features, MapKind kind, uint seed,
                  const GuideNeeds& needs, const VisibleCells& marks);
-
-/// Upper ends of the parts of the unit interval by which light samples choose lights: in proportion to the root of the
-/// mean square of what each brings to the places, in parts of all light there. Lights get a tenth by flux, whose CDF is
-/// `byFlux`.
-std::vector<float> learnLightDistribution(Gpu& gpu, const UploadedScene& scene, const Features& features, uint seed,
-                                          const CameraPilot& places, std::span<const float> byFlux);
 
 } // namespace vkpm

@@ -1,6 +1,7 @@
 /// The pilot: radii, then guides and light distribution, then radii of guided photons.
 #include "render/pilot.h"
 #include "render/features.h"
+#include "render/light_guide.h"
 #include <algorithm>
 #include <array>
 
@@ -27,7 +28,7 @@ void Pilot::prepare(Gpu& gpu, UploadedScene& scene, const Features& features, co
     const auto wantsGuide = [&](const std::optional<PhotonMapStage>* map) {
         return *map && !(*map)->guide() && ((*map)->kind == MapKind::caustic || needs.global);
     };
-    const bool wantsLights = needs.lights && !lightDistributionLearned && asksLights(seen, settings);
+    const bool wantsLights = (needs.lights || needs.sky) && !lightDistributionLearned && asksLights(seen, settings);
     if (wantsLights || std::ranges::any_of(maps, wantsGuide)) {
         measure();
         const CameraPilot places(gpu, scene, seen, settings,
@@ -37,7 +38,7 @@ void Pilot::prepare(Gpu& gpu, UploadedScene& scene, const Features& features, co
         for (std::optional<PhotonMapStage>* map : maps)
             if (wantsGuide(map))
                 (*map)->setGuide(learnGuide(gpu, scene, features, (*map)->kind, settings.seed, needs, places.marks));
-        if (wantsLights) scene.chooseLights(learnLightDistribution(gpu, scene, seen, settings.seed, places, lightCdf));
+        if (wantsLights) learnLights(gpu, scene, seen, settings.seed, needs, places, lightCdf);
         lightDistributionLearned = true;
     }
     measure();

@@ -88,6 +88,19 @@ UploadedScene::UploadedScene(Gpu& gpu, const Scene& scene, const Settings& setti
     setView(scene.view, settings.size);
 }
 
+void UploadedScene::chooseLights(Gpu& gpu, std::span<const float> cdf) {
+    if (cdf.size() != directCdf.size()) directCdf = Buffer<float>(gpu, "scene direct cdf", cdf);
+    else directCdf.upload(cdf);
+    device.directCdf = directCdf;
+    address.upload(std::span(&device, 1));
+}
+
+void UploadedScene::guideLights(Gpu& gpu, std::span<const GuideNode> nodes) {
+    lightGuide = Buffer<GuideNode>(gpu, "light guide", nodes);
+    device.lightGuide = lightGuide;
+    address.upload(std::span(&device, 1));
+}
+
 void UploadedScene::setView(const View& view, uvec2 size) {
     device.camera = pinholeCamera(view, size);
     device.cameraMedia = media.at(glm::dvec3{view.origin});

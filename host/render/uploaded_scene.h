@@ -18,7 +18,10 @@ public:
     Camera camera() const { return device.camera; }
 
     /// Light samples choose lights by these upper ends, the last of which is 1; at first they are those of photons.
-    void chooseLights(std::span<const float> cdf) { directCdf.upload(cdf); }
+    /// Those of a guide's regions may follow.
+    void chooseLights(Gpu& gpu, std::span<const float> cdf);
+    /// Light samples follow a guide, see light_guide.glsl; none: the same everywhere.
+    void guideLights(Gpu& gpu, std::span<const GuideNode> nodes);
 
     /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
     void requireNothingMissing() const;
@@ -40,6 +43,7 @@ private:
     Buffer<Light> lights;
     Buffer<float> lightCdf;
     Buffer<float> directCdf;
+    Buffer<GuideNode> lightGuide;
     Buffer<Target> targets;
     Buffer<float> targetWeights;
     Buffer<Medium> mediaBuffer;

@@ -4,4 +4,4 @@
 #include "../map.glsl"
 #include "light.glsl"
 
-MAP(float, uint, chooseLight(args.scene.at[0], args.scene.at[0].lightCdf, x))
+MAP(float, uint, chooseLight(args.scene.at[0], args.scene.at[0].lightCdf, 0u, x))
