@@ -13,8 +13,6 @@
 #include "traverse.glsl"
 
 const uint MAX_GLINTS = 8u; // the first lights, which are looked at
-const uint GLINT_STEPS =
-    2u; // faces from within which a reflected ray is followed, all but the last by total reflection
 
 // Whether a ray would run into a light if nothing were in its way.
 bool isAimedAt(Light light, vec3 origin, vec3 d) {
@@ -42,26 +40,21 @@ bool isAimedAtAny(DeviceScene scene, vec3 origin, vec3 d) {
     return false;
 }
 
-// Whether a ray within glass, by total reflections, comes out aimed at a light. A guess: it takes all glass to lie in
-// air, and looks at nothing in the light's way.
+// Whether a ray within glass comes out aimed at a light. A guess: it takes all glass to lie in air, knows one face, and
+// looks at nothing in the light's way.
 bool comesOutAimed(DeviceScene scene, Surface s, vec3 d) {
-    for (uint i = 0u; i < GLINT_STEPS; i++) {
-        Path path;
-        path.origin = leave(s, d);
-        path.direction = d;
-        Hit hit = closest(scene, path.origin, d, s.primitive);
-        if (hit.primitive == NONE) return isAimedAtAny(scene, path.origin, d);
-        s = surfaceAt(scene, path, hit);
-        if (s.light != NONE) return true;
-        Material m = MaterialPtr(scene.materials).at[s.material];
-        if (m.kind != MATERIAL_GLASS) return false;
-        vec3 n = scatteringNormal(s, d);
-        float eta = ratioBeyond(m, dot(d, s.normal) > 0.0), cosine = min(1.0, -dot(d, n));
-        if (refractedCosine2(eta, cosine) > 0.0)
-            return isAimedAtAny(scene, s.position, refractAbout(d, n, eta, cosine));
-        d = reflect(d, n);
-    }
-    return false;
+    Path path;
+    path.origin = leave(s, d);
+    path.direction = d;
+    Hit hit = closest(scene, path.origin, d, s.primitive);
+    if (hit.primitive == NONE) return isAimedAtAny(scene, path.origin, d);
+    s = surfaceAt(scene, path, hit);
+    if (s.light != NONE) return true;
+    Material m = MaterialPtr(scene.materials).at[s.material];
+    if (m.kind != MATERIAL_GLASS) return false;
+    vec3 n = scatteringNormal(s, d);
+    float eta = ratioBeyond(m, dot(d, s.normal) > 0.0), cosine = min(1.0, -dot(d, n));
+    return refractedCosine2(eta, cosine) > 0.0 && isAimedAtAny(scene, s.position, refractAbout(d, n, eta, cosine));
 }
 
 // Changes the number u by which smooth glass chooses between reflection and refraction so that half of the paths are
