@@ -136,7 +136,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     vec3 albedo = diffuseAlbedo(scene, material, cosine);
     float diffuse = args.caustic != 0u ? 0.0 : maxComponent(albedo);
     float glossy = aimed ? 1.0 : maxComponent(glossyAlbedo(material, cosine, restAt(scene, material, cosine)));
-    if (specularRun(path.flags) >= 32u) glossy *= 0.9;
+    glossy *= runSurvival(specularRun(path.flags), false);
     if (ends) glossy = 0.0;
 
     float u = sample2(s, 4u * bounce + 5u).x;

@@ -1,4 +1,4 @@
-// Survival at specular surfaces: (weight, bounce), where no lamp may be seen, and where one may.
+// Survival at specular surfaces: (weight, bounce), of photons and what the eye sees, and of gather rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../map.glsl"
