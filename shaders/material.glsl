@@ -350,8 +350,14 @@ uint afterLobe(uint flags, bool wide) {
 }
 
 // Probability with which a path goes on at a specular surface after a run of others. Light within glass near the
-// critical angle may be reflected for ever without loss: from the 32nd on a tenth ends at each. Only a run counts: in a
-// bright room, where paths have hundreds of vertices, the weights that make up for such ends would grow without bound.
-float specularSurvival(vec3 weight, uint run) { return min(maxComponent(weight), run < 32u ? 1.0 : 0.9); }
+// critical angle may be reflected for ever without loss: from the 32nd on a twentieth ends at each. Were it more,
+// photons and lamps that the eye sees would grow heavy faster than they come out, and be specks of twenty of their
+// like; of gather rays, which see neither, a tenth ends. Only a run counts: in a bright room, where paths have hundreds
+// of vertices, the weights that make up for such ends would grow without bound.
+float runSurvival(uint run, bool gathers) { return run < 32u ? 1.0 : gathers ? 0.9 : 0.95; }
+
+float specularSurvival(vec3 weight, uint run, bool gathers) {
+    return min(maxComponent(weight), runSurvival(run, gathers));
+}
 
 #endif

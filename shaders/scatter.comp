@@ -49,8 +49,8 @@ uint scatterAtSpecular(uint bounce, inout Path path, Material material, Surface 
         hasTouching ? leaveInterface(args.scene.at[0], surface, at, event.direction) : leave(surface, event.direction);
     path = Path(origin, event.direction, path.throughput * correction, 0.0, surface.primitive,
                 afterSpecular(path.flags), media);
-    return russianRoulette(path, event.weight, specularSurvival(event.weight, run), u.y) ? OUTCOME_GOES_ON
-                                                                                         : OUTCOME_ABSORBED;
+    return russianRoulette(path, event.weight, specularSurvival(event.weight, run, false), u.y) ? OUTCOME_GOES_ON
+                                                                                                : OUTCOME_ABSORBED;
 }
 
 // The photon as the map keeps it, seen from the side of `normal`, where the surface has `bulge`. Its flux makes up for
@@ -136,7 +136,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     vec3 albedo = diffuseAlbedo(scene, material, cosine);
     float diffuse = args.caustic != 0u ? 0.0 : maxComponent(albedo);
     float glossy = aimed ? 1.0 : maxComponent(glossyAlbedo(material, cosine, restAt(scene, material, cosine)));
-    if (specularRun(path.flags) >= 32u) glossy *= 0.9;
+    glossy *= runSurvival(specularRun(path.flags), false);
     if (ends) glossy = 0.0;
 
     float u = sample2(s, 4u * bounce + 5u).x;

@@ -220,7 +220,7 @@ void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Materi
     Scattering event = scatterSpecular(material, surface, path.direction, vec3(u.x, place), accepted);
     uint media = goesBeyond(surface, path.direction, event.direction) ? at.media : path.media;
     uint run = specularRun(path.flags);
-    float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run);
+    float survival = run < 8u ? 1.0 : specularSurvival(event.weight, run, diffuseCount(path.flags) > 0u);
     if (u.y >= survival) return;
     bool wide = isWideHere(material);
     vec3 throughput = path.throughput * event.weight * (event.radianceScale / survival);

@@ -115,16 +115,36 @@ TEST(Layers, BoxIsNearerToTheTruthAtEqualPasses) {
     }
 }
 
-/// A lamp seen in a sheet of water from straight above, over black; `lamp` is its kind and place.
-nlohmann::json glint(const nlohmann::json& lamp) {
+/// A lamp seen in a sheet of water from straight above, or in a pane of glass at 45 degrees, over black; `lamp` is its
+/// kind and place.
+nlohmann::json glint(const nlohmann::json& lamp, bool isPane) {
     nlohmann::json scene{
         {"camera", {{"origin", {0.1, 2, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"fieldOfView", 1}}},
         {"film", {{"size", {8, 8}}}},
         {"materials", {{"water", {{"type", "glass"}, {"ior", 1.5}}}}},
         {"shapes",
          {{{"type", "rectangle"}, {"corner", {-1, 0, 1}}, {"edges", {{2, 0, 0}, {0, 0, -2}}}, {"material", "water"}}}}};
+    if (isPane) {
+        scene["camera"]["origin"] = {1.5, 1.5, 0};
+        scene["shapes"].push_back({{"type", "rectangle"},
+                                   {"corner", {-1, -0.1, -1}},
+                                   {"edges", {{2, 0, 0}, {0, 0, 2}}},
+                                   {"material", "water"}});
+    }
     scene["shapes"].push_back(lamp);
     return scene;
+}
+
+/// The mean of the layer `specular` of such a scene, and its noise after 16 passes.
+Estimate glintEstimate(const nlohmann::json& lamp, bool isPane, uint integrator) {
+    const Scene scene = loadJson(glint(lamp, isPane));
+    Settings settings = scene.settings;
+    settings.integrator = integrator;
+    settings.photons = settings.causticPhotons = 100;
+    const std::vector<Pixel> pixels = renderPasses(scene, settings, 16).pixels;
+    double squares = 0;
+    for (const Pixel& pixel : pixels) squares += std::pow(double(pixel.noise.x), 2) / double(pixels.size());
+    return {layerMean(pixels, LAYER_SPECULAR), std::sqrt(squares)};
 }
 
 // Glass reflects a twenty-fifth of what falls upon it at right angles. A pixel that shows a lamp so is right in the
@@ -135,19 +155,33 @@ TEST(Glints, AreAsBrightAsTheyShouldBeAndNoSpecks) {
         {{"type", "sphere"}, {"center", {-0.1, 2, 0}}, {"radius", 0.1}, {"emission", 100}}};
     for (const nlohmann::json& lamp : lamps)
         for (const auto integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH}) {
-            const Scene scene = loadJson(glint(lamp));
-            Settings settings = scene.settings;
-            settings.integrator = integrator;
-            settings.photons = settings.causticPhotons = 100;
-            const std::vector<Pixel> pixels = renderPasses(scene, settings, 16).pixels;
-            const double right = 0.04 * 100, mean = layerMean(pixels, LAYER_SPECULAR);
-            double squares = 0;
-            for (const Pixel& pixel : pixels) squares += std::pow(double(pixel.noise.x), 2) / double(pixels.size());
-            std::printf("%s: %.3f for %.3f, noise %.3f\n", lamp["type"].get<std::string>().c_str(), mean, right,
-                        std::sqrt(squares));
-            EXPECT_NEAR(mean, right, 4 * right / std::sqrt(16.0 * 64));
-            EXPECT_LT(std::sqrt(squares), 1.3 * right / std::sqrt(16.0)); // by chance alone it would be 4.9 times this
+            const double right = 0.04 * 100;
+            const Estimate found = glintEstimate(lamp, false, integrator);
+            std::printf("%s: %.3f for %.3f, noise %.3f\n", lamp["type"].get<std::string>().c_str(), found.mean, right,
+                        found.error);
+            EXPECT_NEAR(found.mean, right, 4 * right / std::sqrt(16.0 * 64));
+            EXPECT_LT(found.error, 1.3 * right / std::sqrt(16.0)); // by chance alone it would be 4.9 times this
         }
+}
+
+// The same by a pane, which reflects on both sides, r of what falls upon each: in all 2 r / (1 + r). A sample is 2 r of
+// the lamp by the upper side, one time of two, or 4 r (1 - r) by the lower one, one time of four, or nearly always
+// black.
+TEST(Glints, WithinGlassAreNoSpecks) {
+    const nlohmann::json lamp{{"type", "sphere"}, {"center", {-1.55, 1.5, 0}}, {"radius", 0.2}, {"emission", 100}};
+    const double i = std::sqrt(0.5), t = std::sqrt(1 - 0.5 / 2.25);
+    const double r = (std::pow((i - 1.5 * t) / (i + 1.5 * t), 2) + std::pow((1.5 * i - t) / (1.5 * i + t), 2)) / 2;
+    const double right = 100 * 2 * r / (1 + r);
+    const double square = 1e4 * (std::pow(2 * r, 2) / 2 + std::pow(4 * r * (1 - r), 2) / 4);
+    const double deviation = std::sqrt(square - right * right);
+    for (const auto integrator : {INTEGRATOR_PHOTON, INTEGRATOR_PATH}) {
+        const Estimate found = glintEstimate(lamp, true, integrator);
+        std::printf("%.3f for %.3f, noise %.3f for %.3f\n", found.mean, right, found.error,
+                    deviation / std::sqrt(16.0));
+        EXPECT_NEAR(found.mean, right, 4 * deviation / std::sqrt(16.0 * 64));
+        EXPECT_LT(found.error,
+                  1.3 * deviation / std::sqrt(16.0)); // by chance at the lower side it would be 4 times this
+    }
 }
 
 } // namespace

@@ -244,11 +244,11 @@ TEST(Scatter, SpecularCorrectionOfAPathAndItsReverseCancel) {
 }
 
 TEST(Scatter, SpecularSurvival) {
-    const auto ys = map<float>(
+    const auto ys = map<vec2>(
         "specular_survival",
         std::vector<vec4>{
             {1, 1, 1, 0}, {1, 1, 1, 31}, {1, 1, 1, 32}, {0.5f, 0.2f, 0.1f, 3}, {0.1f, 0.2f, 0.5f, 99}, {0, 0, 0, 0}});
-    EXPECT_EQ(ys, (std::vector<float>{1, 1, 0.9f, 0.5f, 0.5f, 0}));
+    EXPECT_EQ(ys, (std::vector<vec2>{{1, 1}, {1, 1}, {0.95f, 0.9f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0, 0}}));
 }
 
 TEST(Material, IsDiffuse) {
