@@ -33,7 +33,7 @@ void main() {
         args.queries.at[slot].column = NONE;
     }
     vec3 inner;
-    vec3 irradiance = hasWide && query.lobes != BY_DIFFUSE
+    vec3 irradiance = hasWide && (query.lobes & BY_WIDE) != 0u
                           ? estimateByLobes(DeviceScenePtr(args.scene).at[0], args.map, query, radius, inner)
                           : estimateWithin(args.map, query, radius, inner);
     irradiance *= args.map.photonFlux;

@@ -63,7 +63,7 @@ Photon photonAt(inout Path path, Surface surface, vec3 normal, float bulge) {
             path.throughput *=
                 cosineOfArrival(-path.direction, normal, shading, bulge) / abs(dot(path.direction, normal));
     }
-    return Photon(surface.position, path.throughput, packUnit(normal), hasWide ? packUnit(-path.direction) : 0u);
+    return Photon(surface.position, path.throughput, packUnit(normal), packUnit(-path.direction));
 }
 
 uint scatterAtDiffuse(uint bounce, inout Path path, Material material, Surface surface, vec3 normal, float survival,

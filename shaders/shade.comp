@@ -138,7 +138,7 @@ void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface,
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
     vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, lobes,
-                         hasWide ? packUnit(-path.direction) : 0u);
+                         packUnit(-path.direction));
     vertex.queues |= 1u << queue;
 }
 

@@ -11,7 +11,7 @@ struct Photon {
     vec3 position;
     vec3 color;     // relative to the flux per photon
     uint normal;    // geometric, on the side of arrival, octahedral 2 x 16 bit
-    uint direction; // from which it came, likewise; of scenes with wide lobes
+    uint direction; // from which it came, likewise
 };
 BUFFER(Photon)
 

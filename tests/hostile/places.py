@@ -21,7 +21,6 @@ from lab import (
 )
 
 
-
 def median_difference(found: Render, expected: Render) -> float:
     """Of beauty, over pixels, in parts of its mean: paths that a rounding sends elsewhere do not count."""
     return float(np.median(np.abs(found.layer() - expected.layer()))) / expected.mean()

@@ -8,7 +8,6 @@ import math
 import numpy as np
 
 from lab import (
-    BALL,
     BOX,
     Lab,
     Scene,
