@@ -18,10 +18,13 @@ inline bool isNightly() { return std::getenv("VKPM_NIGHTLY") != nullptr; }
 
 /// Whether this run takes one of `of` tests, or sets of them, that take long and share a subject: each commit draws
 /// one.
-inline bool isDrawn(std::uint32_t index, std::uint32_t of = 2) { return isNightly() || (drawSeed() + index) % of == 0; }
+inline bool isDrawn(std::uint32_t index, std::uint32_t of = isThorough() ? 2 : 4) {
+    return isNightly() || (drawSeed() + index) % of == 0;
+}
 
 /// Skips the running test unless it is drawn.
 #define SKIP_UNLESS_DRAWN(index)                                                                                       \
-    if (!isDrawn(index)) GTEST_SKIP() << "drawn by every second commit; tools/test --nightly has all"
+    if (!isDrawn(index))                                                                                               \
+    GTEST_SKIP() << "drawn by every second commit (without --all every fourth); tools/test --nightly has all"
 
 } // namespace vkpm
