@@ -342,6 +342,7 @@ TEST(Lamps, PhotonsBringWhatLightSamplesBring) {
 // A lamp without a size is seen through frosted glass by light samples alone, a small one by rays as well.
 TEST(Lamps, ShineThroughFrostedGlass) {
     SKIP_UNLESS_DRAWN(0);
+    if (!isThorough()) GTEST_SKIP() << "takes as long as the others together: tools/test --all";
     for (const double roughness : {0.45, 0.6}) { // labels G and W
         const json glass{
             {"type", "glass"}, {"ior", 1.5}, {"roughness", roughness}, {"abbe", roughness > 0.5 ? 15 : 100}};
@@ -371,7 +372,8 @@ TEST(Lamps, ShineThroughFrostedGlass) {
 
 // Balls of index 1 change nothing: what they take from direct light comes as their caustic.
 TEST(Lamps, CausticsAreWhatShadowsLack) {
-    SKIP_UNLESS_DRAWN(0);
+    SKIP_UNLESS_DRAWN(1);
+    if (!isThorough()) GTEST_SKIP() << "takes as long as the others together: tools/test --all";
     for (const auto& [name, lighting] : lightings()) {
         json scene = lit(lighting);
         const double without = irradiance(scene, 16) / pi;
