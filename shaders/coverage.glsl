@@ -72,9 +72,9 @@ const uint MOST_TRIES = 32u;
 // One over the part of the disc that surfaces cover (x), and one over that of the disc of half its area (y): how many
 // points, uniform over the disc, it takes to find a covered one, up to MOST_TRIES, whose expectation that is (of a
 // geometric distribution). For y, a point's counterpart in the inner disc is taken to be covered where the point is, as
-// it is if the covered part is convex. The points are drawn by the place in
-// units of the radius, which scaling leaves alone, without the last bits, in which drivers differ.
-// One on a surface that lets a part of the light through: photons lie on it wherever probes go through it.
+// it is if the covered part is convex. The points are drawn by the place in units of the radius, which scaling leaves
+// alone, without the last bits, in which drivers differ. One on a surface that lets a part of the light through:
+// photons lie on it wherever probes go through it.
 vec2 inverseCoverage(DeviceScene scene, Query query, float radius) {
     if (isWithin(scene, query, radius) || letsLightThrough(scene, query.primitive)) return vec2(1.0);
     uint draw = hash(floatBitsToUint(abs(roundEven(query.position * (4096.0 / radius)))));
