@@ -26,6 +26,11 @@ void addEvent(floatPtr samples, uint stride, uint slot, uint event) {
     if (events < MOST_EVENTS) samples.at[at] = float(events << 2 | event);
 }
 
+// A further path of the pixel begins.
+void forgetEvents(floatPtr samples, uint stride, uint slot) {
+    if (hasLabels && hasAlbedo) samples.at[COLUMN_ALBEDO * stride + slot] = 0.0;
+}
+
 // Light that is added to a column of a layer.
 void labelLight(floatPtr samples, uint stride, uint slot, uint column, vec3 light, uint found) {
     if (!hasLabels || !hasAlbedo || column >= COLUMN_ALBEDO) return;

@@ -131,11 +131,15 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
-// Asks a map, unless there is no such map or nobody asked for the layer.
+// Asks a map, unless there is no such map or nobody asked for the layer. Of the paths of a pixel one asks for caustics.
 void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer,
                     uint lobes) {
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
+    if (queue == QUEUE_CAUSTIC) {
+        if (args.asking == 0.0) return;
+        weight *= args.asking;
+    }
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
     vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, lobes,
                          packUnit(-path.direction));
@@ -298,12 +302,13 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     path.distanceSinceDiffuse += hit.t;
     if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     if (bounce == 0u) {
-        if (hasAlbedo && !hasLabels) storeColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, material.color);
-        if (hasNormal) storeColumns(args.samples, args.stride, COLUMN_NORMAL, slot, surface.shading);
+        if (hasAlbedo && !hasLabels)
+            addToColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, args.share * material.color);
+        if (hasNormal) addToColumns(args.samples, args.stride, COLUMN_NORMAL, slot, args.share * surface.shading);
         if (hasDepth) {
-            args.samples.at[COLUMN_DEPTH * args.stride + slot] =
-                scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
-            args.samples.at[COLUMN_COVERED * args.stride + slot] = 1.0;
+            args.samples.at[COLUMN_DEPTH * args.stride + slot] +=
+                args.share * scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
+            args.samples.at[COLUMN_COVERED * args.stride + slot] += args.share;
         }
     }
     if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {

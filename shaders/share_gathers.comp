@@ -126,10 +126,10 @@ void main() {
     uint layer = (here.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT;
     if (here.flags == NONE || !hasLayer(layer)) return;
     Shared gathered = gatheredAround(slot, here);
-    vec3 mean = gathered.sum / gathered.count;
-    addToColumns(args.samples, args.stride, layerColumn(layer), slot, here.throughput * mean);
-    labelLight(args.samples, args.stride, slot, layerColumn(layer), here.throughput * mean, FOUND_BY_GATHERING);
+    vec3 mean = gathered.sum / gathered.count, weight = args.weight * here.throughput;
+    addToColumns(args.samples, args.stride, layerColumn(layer), slot, weight * mean);
+    labelLight(args.samples, args.stride, slot, layerColumn(layer), weight * mean, FOUND_BY_GATHERING);
     if (hasBias)
         addToColumns(args.samples, args.stride, COLUMN_BIAS, slot,
-                     here.throughput * (gathered.bias / gathered.count + biasOfSharing(mean, gathered)));
+                     weight * (gathered.bias / gathered.count + biasOfSharing(mean, gathered)));
 }

@@ -40,7 +40,7 @@ struct Split {
     vec3 origin;
     vec3 normal; // geometric, on the side of the viewer
     vec3 shading;
-    vec3 throughput; // of what all gather rays bring together, the albedo included
+    vec3 throughput; // of what all light samples bring together, the albedo included
     uint from;       // primitive that the rays leave
     uint flags;      // as in Path; NONE: there is no such point
     float bulge;     // on the side of the normal, see terminator.glsl
@@ -52,17 +52,19 @@ BUFFER(Split)
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
-    PTR(float) samples; // [column][stride]
+    PTR(float) samples; // [column][stride]; the first path of a pixel clears them
     PTR(uint) list;
     PTR(Split) splits; // become none
     uint stride;
     uvec2 size;
     uint firstPixel;
     uint count;
-    uint pass;
+    uint index; // of the sample in its sequence
     uint seed;
     uint centered;  // 1: through the middle of the pixel
     uint splitting; // 1: there are splits
+    uint isFirst;   // 0: the pixel has samples of other paths
+    float share;    // of this path among those of the pixel
 };
 
 struct ShadeArgs {
@@ -83,10 +85,18 @@ struct ShadeArgs {
     uint seed;
     uint bounce;
     uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
+    float asking;       // weight of what is asked of the caustic map; 0: another path of the pixel asks
+    float share;        // of this path among those of the pixel
     float nearDistance; // a gather ray shorter than this goes on
     float pixelAngle;   // width of a pixel over its distance
     uint integrator;    // INTEGRATOR_...
 };
+
+// What is sent from splits: a light sample and a gather ray, or, from those of further paths of a pixel, a light sample
+// and then, if lights are endlessly far, a shadow ray by the cosine law.
+const uint SPLIT_GATHERS = 0u;
+const uint SPLIT_LIGHT = 1u;
+const uint SPLIT_BEYOND = 2u;
 
 struct SplitArgs {
     PTR(DeviceScene) scene;
@@ -100,6 +110,7 @@ struct SplitArgs {
     uint index; // of the sample in its sequence
     uint seed;
     float share; // of a gather ray and of a light sample
+    uint sends;  // SPLIT_...
 };
 
 struct ShadowArgs {
@@ -124,6 +135,7 @@ struct ShareGathersArgs {
     uint bandShift; // rows of the first band that lie above the picture
     uint pass;
     float radius;
+    float weight; // of what is gathered: paths of a pixel, of which one sends gather rays
 };
 
 struct GatherArgs {

@@ -1,6 +1,7 @@
 // Sends from each diffuse point that the eye sees a light sample and a gather ray, the latter by the cosine law about
 // the shading normal. There are several of both for a path from the eye (splitting, Arvo & Kirk 1990), whose own part
-// is traced once for all.
+// is traced once for all. Further paths of a pixel have a light sample each, and no gather ray: what gather rays bring
+// hardly varies, since neighbours share it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -25,9 +26,10 @@ bool gathers(Split from) {
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
-    ShadowRay ray = sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
-                                 args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
-                                 lightGuideAt(args.scene.at[0], from.origin), gathers(from));
+    ShadowRay ray =
+        sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
+                     args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
+                     lightGuideAt(args.scene.at[0], from.origin), args.sends != SPLIT_GATHERS || gathers(from));
     if (hasMedia) ray.radiance *= shadowTransmittance(args.scene.at[0], from.media, ray);
     args.shadowRays.at[slot] = ray;
     return maxComponent(ray.radiance) > 0.0;
@@ -45,10 +47,30 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
     return true;
 }
 
+// In place of the gather ray of the first path: its share of the lights that are endlessly far.
+bool sendRayBeyond(uint slot, Split from, Sampler s) {
+    DeviceScene scene = args.scene.at[0];
+    uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
+    vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
+    if (!hasLayer(layer) || !departs(direction, from.normal, from.bulge) ||
+        goesThrough(direction, from.normal, from.bulge))
+        return false;
+    float arrival = diffuseArrivalAt(scene, from.from, from.origin, dot(direction, from.shading));
+    float pdf = unpackPdf(packPdf(cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI));
+    vec3 radiance = args.share * arrival * from.throughput *
+                    radianceBeyond(scene, lightGuideAt(scene, from.origin), direction, pdf);
+    ShadowRay ray = ShadowRay(from.origin, from.from, direction, radiance, layerColumn(layer), SHADOW_ENDLESS);
+    if (hasMedia) ray.radiance *= shadowTransmittance(scene, from.media, ray);
+    args.shadowRays.at[slot] = ray;
+    return maxComponent(ray.radiance) > 0.0;
+}
+
 uint send(uint slot) {
     Split from = args.splits.at[slot];
     if (from.flags == NONE) return 0u;
     Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, SAMPLES_GATHER);
+    if (hasEndless && args.sends == SPLIT_BEYOND) return uint(sendRayBeyond(slot, from, s)) << QUEUE_SHADOW;
+    if (args.sends == SPLIT_LIGHT) return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW;
     return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW | uint(sendGatherRay(slot, from, s)) << QUEUE_CONTINUE;
 }
 

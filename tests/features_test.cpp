@@ -202,6 +202,7 @@ public:
         s.photons = random.bits() % 8 ? 300 : 0;
         s.causticPhotons = random.bits() % 8 ? 300 : 0;
         s.gatherRays = 1 + random.bits() % 3;
+        s.pixelSamples = 1 + random.bits() % 3;
         s.integrator = random.bits() % 2 ? INTEGRATOR_PHOTON : random.bits() % 5;
         s.kernel = random.bits() % 4;
         s.schlick = maybe();

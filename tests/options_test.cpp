@@ -116,6 +116,8 @@ TEST_F(OptionsTest, OverridesTheScene) {
                                           "cone",
                                           "--fresnel",
                                           "schlick",
+                                          "--pixel-samples",
+                                          "9",
                                           "--gather-rays",
                                           "7",
                                           "--seed",
@@ -136,6 +138,7 @@ TEST_F(OptionsTest, OverridesTheScene) {
     EXPECT_EQ(settings.photons, 1'000'000u);
     EXPECT_EQ(settings.causticPhotons, 0u);
     EXPECT_EQ(settings.nearest, 50u);
+    EXPECT_EQ(settings.pixelSamples, 9u);
     EXPECT_EQ(settings.gatherRays, 7u);
     EXPECT_EQ(settings.radius, 0.25f);
     EXPECT_EQ(settings.causticRadius, 0.125f);
@@ -230,6 +233,7 @@ TEST_F(OptionsTest, RefusesWrongValuesNamingTheOptionAndWhatIsAllowed) {
              {"--caustic-photons", "inf", "whole number"},
              {"--nearest", "many", "whole number"},
              {"--seed", "4294967296", "4294967295"},
+             {"--pixel-samples", "257", "from 1 to 256"},
              {"--gather-rays", "0", "from 1 to 1024"},
              {"--radius", "0", "above 0"},
              {"--radius", "-1", "above 0"},

@@ -279,6 +279,8 @@ TEST(Schema, HasTheNamesAndDefaultsOfTheSettings) {
     EXPECT_EQ(rules["passes"]["default"], defaults.passes);
     EXPECT_EQ(rules["photons"]["default"], defaults.photons);
     EXPECT_EQ(rules["causticPhotons"]["default"], defaults.causticPhotons);
+    EXPECT_EQ(rules["pixelSamples"]["default"], defaults.pixelSamples);
+    EXPECT_EQ(rules["pixelSamples"]["maximum"], maxPixelSamples);
     EXPECT_EQ(rules["gatherRays"]["default"], defaults.gatherRays);
     EXPECT_EQ(rules["gatherRays"]["maximum"], maxGatherRays);
     EXPECT_EQ(rules["nearest"]["default"], defaults.nearest);

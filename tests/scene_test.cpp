@@ -107,6 +107,7 @@ TEST(Scene, SettingsOverrideDefaults) {
     EXPECT_EQ(settings.radius, 0.1f);
     EXPECT_EQ(settings.causticRadius, 0.1f);
     EXPECT_EQ(settings.nearest, 5u);
+    EXPECT_EQ(settings.pixelSamples, 3u);
     EXPECT_EQ(settings.gatherRays, 2u);
     EXPECT_EQ(settings.kernel, DENSITY_KERNEL_CONE);
     EXPECT_TRUE(settings.schlick);

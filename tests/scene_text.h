@@ -14,7 +14,7 @@ inline nlohmann::json smallScene() {
     return nlohmann::json::parse(R"({
         "camera": {"origin": [0, 0, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fieldOfView": 40},
         "film": {"size": [8, 4], "exposure": 1},
-        "settings": {"passes": 2, "photons": 10, "causticPhotons": 10, "radius": 0.1, "causticRadius": 0.1, "nearest": 5, "gatherRays": 2,
+        "settings": {"passes": 2, "photons": 10, "causticPhotons": 10, "radius": 0.1, "causticRadius": 0.1, "nearest": 5, "pixelSamples": 3, "gatherRays": 2,
                      "kernel": "cone", "fresnel": "schlick", "seed": 7},
         "materials": {"grey": {"type": "diffuse", "albedo": 0.5}, "steel": {"type": "mirror", "reflectance": [0.9, 0.8, 0.7]},
                       "water": {"type": "glass", "ior": 1.33, "exteriorIor": 1, "tint": 1}},

@@ -70,7 +70,10 @@ void addPhotons(Parser& parser, RenderOptions& options, const Settings& defaults
     parser.count("--photons", "emitted per pass", defaults.photons, options.photons);
     parser.count("--caustic-photons", "aimed at specular shapes per pass", defaults.causticPhotons,
                  options.causticPhotons);
-    parser.count("--gather-rays", fmt::format("from each point that the eye sees, per pass, 1 to {}", maxGatherRays),
+    parser.count("--pixel-samples",
+                 fmt::format("paths from the eye for each pixel, per pass, 1 to {}", maxPixelSamples),
+                 defaults.pixelSamples, options.pixelSamples, 1, maxPixelSamples);
+    parser.count("--gather-rays", fmt::format("from where the first of these ends, per pass, 1 to {}", maxGatherRays),
                  defaults.gatherRays, options.gatherRays, 1, maxGatherRays);
     parser.add("--radius", "R", "first gather radius, world units (default: measured by a pilot pass)", options.radius,
                radiusOf);

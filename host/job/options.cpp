@@ -29,6 +29,7 @@ Settings SettingsOptions::over(Settings settings) const {
     set(settings.passes, passes);
     set(settings.photons, photons);
     set(settings.causticPhotons, causticPhotons);
+    set(settings.pixelSamples, pixelSamples);
     set(settings.gatherRays, gatherRays);
     set(settings.radius, radius);
     set(settings.causticRadius, causticRadius);

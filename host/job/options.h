@@ -17,6 +17,7 @@ struct SettingsOptions {
     std::optional<bool> showPoints;
     std::optional<uint> passes;
     std::optional<uint> photons;
+    std::optional<uint> pixelSamples;
     std::optional<uint> gatherRays;
     std::optional<uint> causticPhotons;
     std::optional<float> radius;

@@ -20,14 +20,22 @@ const uint roundsAtOnce = 4; // recorded before the host looks whether any path 
 // to nothing, too few a batch.
 const uint spareRounds = 8;
 
+const uint furtherPaths = 1u << 28; // of a pixel: their indices begin there, beyond those of the most passes
+
 RayCounts CameraBatch::rays() const {
     RayCounts rays;
-    for (const auto& sequence : queues) {
-        rays.paths += sequence[QUEUE_CONTINUE].base;
-        rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
-    }
-    rays.paths -= std::uint64_t(queues.size() - 1) * count; // those that were looked at for gather rays
+    for (const auto* sequences : {&eye, &splits})
+        for (const auto& sequence : *sequences) {
+            rays.paths += sequence[QUEUE_CONTINUE].base;
+            rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
+        }
+    rays.paths -= std::uint64_t(splits.size()) * count; // those that were looked at for gather rays
     return rays;
+}
+
+/// Paths of a pixel. Where there are no maps to ask, passes do as well.
+static uint pixelSamplesOf(const Settings& settings) {
+    return settings.integrator == INTEGRATOR_PHOTON ? settings.pixelSamples : 1;
 }
 
 static bool sharesGathers(const Features& features, const Settings& settings) {
@@ -45,8 +53,8 @@ static uint bandShift(uint pass) { return pass * 13 % SHARING_BAND; } // 13: eac
 
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
                          uint batchSize, uint firstRounds)
-    : gpu(device), scene(uploaded), settings(set), features(has), shares(sharesGathers(has, set)),
-      batch(batchOf(set.size, batchSize, shares)),
+    : gpu(device), scene(uploaded), settings(set), features(has), pixelSamples(pixelSamplesOf(set)),
+      shares(sharesGathers(has, set)), batch(batchOf(set.size, batchSize, shares)),
       size(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))), rounds(firstRounds),
       compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
       progress(gpu, "camera progress", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features),
@@ -115,6 +123,10 @@ void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round)
                    settings.seed,
                    of.sequence == SAMPLES_EYE ? round : round + 1, // bounces before
                    features.hasCausticMap,
+                   of.sequence != SAMPLES_EYE ? 1
+                   : of.asks                  ? float(pixelSamples)
+                                              : 0,
+                   1 / float(pixelSamples),
                    maps.nearDistance,
                    pixelAngle,
                    settings.integrator});
@@ -143,7 +155,7 @@ void CameraPaths::shareGathers(Recording& recording, const CameraBatch& batch) {
     if (!share || maps.marks) return;
     recording.run(*share, batch.count,
                   {scene.address, splits, samples, size, batch.count, batch.first / settings.size.x, settings.size.x,
-                   bandShift(pass), pass, maps.sharingRadius});
+                   bandShift(pass), pass, maps.sharingRadius, float(pixelSamples)});
 }
 
 std::vector<CameraBatch> CameraPaths::batches(uint index) const {
@@ -164,26 +176,53 @@ void CameraPaths::begin(uint index, const PhotonMaps& asked) {
     pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
 }
 
-void CameraPaths::record(Recording& recording, CameraBatch& batch) {
-    const uint gatherRays = split ? settings.gatherRays : 0;
-    batch.queues.assign(1 + gatherRays, {});
-    recording.clear(progress);
+/// Sends light samples and gather rays from splits, and takes the light samples.
+void CameraPaths::sendSplits(Recording& recording, const Paths& of, float share, uint sends) {
+    const uint count = of.count;
+    compaction.start(recording, count);
+    recording.run(*split, count,
+                  {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, of.first, count,
+                   of.index, settings.seed, share, sends});
+    compaction.compact(recording);
+    castShadowRays(recording);
+}
+
+/// A path of each pixel. Gather rays start where the first one ends; the others have light samples alone.
+void CameraPaths::recordEyePath(Recording& recording, CameraBatch& batch, uint path) {
+    const bool isFirst = path == 0;
+    // Those of the first path complement each other over all passes, and so do those of the others.
+    const uint further = furtherPaths + pass * (pixelSamples - 1) + path - 1, index = isFirst ? pass : further;
     compaction.start(recording, batch.count);
     recording.run(eye, batch.count,
                   {scene.address, paths, samples, compaction.list, splits, size, settings.size, batch.first,
-                   batch.count, pass, settings.seed, settings.showPoints, split.has_value()});
-    recordPaths(recording, {batch.first, SAMPLES_EYE, pass}, batch.queues[0]);
-    for (uint ray = 0; ray < gatherRays; ray++) {
-        const Paths gathering{batch.first, SAMPLES_GATHER, pass * gatherRays + ray};
-        compaction.start(recording, batch.count);
-        recording.run(*split, batch.count,
-                      {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, batch.first,
-                       batch.count, gathering.index, settings.seed, 1 / float(gatherRays)});
-        compaction.compact(recording);
-        castShadowRays(recording);
-        recordPaths(recording, gathering, batch.queues[1 + ray]);
+                   batch.count, index, settings.seed, settings.showPoints, split.has_value(), isFirst,
+                   1 / float(pixelSamples)});
+    recordPaths(recording, {batch.first, batch.count, SAMPLES_EYE, index, isFirst}, batch.eye.emplace_back());
+    if (!split) return;
+    if (isFirst) {
+        for (uint ray = 0; ray < settings.gatherRays; ray++) {
+            const Paths gathering{batch.first, batch.count, SAMPLES_GATHER, pass * settings.gatherRays + ray, true};
+            sendSplits(recording, gathering, 1 / float(settings.gatherRays), SPLIT_GATHERS);
+            recordPaths(recording, gathering, batch.splits.emplace_back());
+        }
+        shareGathers(recording, batch);
+        return;
     }
-    shareGathers(recording, batch);
+    const bool endless = (features.lightKinds & ENDLESS_KINDS) != 0;
+    for (const uint sends : {SPLIT_LIGHT, SPLIT_BEYOND}) {
+        if (sends == SPLIT_BEYOND && !endless) continue;
+        sendSplits(recording, {batch.first, batch.count, SAMPLES_GATHER, further, false}, 1, sends);
+        recording.read(compaction.queues, std::span(batch.splits.emplace_back()));
+    }
+}
+
+void CameraPaths::record(Recording& recording, CameraBatch& batch) {
+    batch.eye.clear();
+    batch.splits.clear();
+    batch.eye.reserve(pixelSamples); // they stay where they are: the device's counts go there
+    batch.splits.reserve(settings.gatherRays + 2 * pixelSamples);
+    recording.clear(progress);
+    for (uint path = 0; path < pixelSamples; path++) recordEyePath(recording, batch, path);
     recording.read(progress, 0, batch.progress);
 }
 

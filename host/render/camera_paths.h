@@ -44,13 +44,15 @@ struct RayCounts {
 struct CameraBatch {
     uint first; // pixel
     uint count;
-    std::vector<std::array<Queue, EYE_QUEUES>> queues{}; // of paths from the eye, then of each gather ray
+    std::vector<std::array<Queue, EYE_QUEUES>> eye{};    // of each path of a pixel
+    std::vector<std::array<Queue, EYE_QUEUES>> splits{}; // of each gather ray, then of what further paths send
     PathRounds progress{};
 
     RayCounts rays() const;
 };
 
-/// Traces one path per pixel, and gather rays from where it ends, for a range of pixels at a time.
+/// Traces some paths for each pixel, and gather rays from where the first of them ends, for a range of pixels at a
+/// time.
 class CameraPaths {
 public:
     CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
@@ -80,21 +82,26 @@ private:
     /// Paths of a batch that are at the same bounce.
     struct Paths {
         uint first; // pixel
+        uint count;
         uint sequence;
         uint index; // of the sample
+        bool asks;  // the caustic map, for all paths of a pixel
     };
     void castShadowRays(Recording& recording);
     void shareGathers(Recording& recording, const CameraBatch& batch);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
     void recordRound(Recording& recording, const Paths& of, uint round);
+    void sendSplits(Recording& recording, const Paths& of, float share, uint sends);
+    void recordEyePath(Recording& recording, CameraBatch& batch, uint path);
     void recordPaths(Recording& recording, const Paths& of, std::array<Queue, EYE_QUEUES>& queues);
 
     Gpu& gpu;
     const UploadedScene& scene;
     Settings settings;
     Features features;
-    bool shares; // what gather rays bring
-    uint batch;  // pixels wanted of one
+    uint pixelSamples; // paths of a pixel
+    bool shares;       // what gather rays bring
+    uint batch;        // pixels wanted of one
     uint size;
     uint pass = 0;
     float pixelAngle = 0;

@@ -24,6 +24,7 @@ static Settings smallPicture(Settings settings) {
     const glm::dvec2 size{settings.size};
     const double scale = std::min(1.0, std::sqrt(eyePaths / (size.x * size.y)));
     settings.size = glm::max(uvec2(size * scale + 0.5), uvec2(1));
+    settings.pixelSamples = 1;
     settings.gatherRays = eyeGatherRays;
     return settings;
 }

@@ -89,6 +89,7 @@ void readSettings(Reader reader, Settings& settings) {
     if (const auto photons = reader.find("causticPhotons")) settings.causticPhotons = photons->integer(0, many);
     if (const auto radius = reader.find("radius")) settings.radius = radius->number(positive);
     if (const auto radius = reader.find("causticRadius")) settings.causticRadius = radius->number(positive);
+    if (const auto paths = reader.find("pixelSamples")) settings.pixelSamples = paths->integer(1, maxPixelSamples);
     if (const auto rays = reader.find("gatherRays")) settings.gatherRays = rays->integer(1, maxGatherRays);
     if (const auto nearest = reader.find("nearest")) settings.nearest = nearest->integer(0, 1'000'000);
     if (const auto alpha = reader.find("alpha")) settings.alpha = alpha->number({0, 1, true});

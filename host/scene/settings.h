@@ -18,6 +18,7 @@ inline constexpr std::array fresnelNames{"exact", "schlick"};
 inline constexpr std::array mapNames{"global", "caustic"};
 inline constexpr std::array showNames{"estimate", "points"};
 const uint maxGatherRays = 1024;
+const uint maxPixelSamples = 256;
 const uint maxSide = 65536; // of a picture, in pixels
 const uint maxPixels = 1u << 28;
 const uint allLayers = (1u << layerNames.size()) - 1;
@@ -27,7 +28,8 @@ struct Settings {
     uint passes = 16;                      //
     uint photons = 50'000;                 // emitted into the global map per pass
     uint causticPhotons = 50'000;          // aimed at specular shapes per pass
-    uint gatherRays = 2;                   // from each diffuse point that the eye sees, per pass
+    uint pixelSamples = 5;                 // paths from the eye for each pixel, per pass
+    uint gatherRays = 2;                   // from the first diffuse point of the first of them
     std::optional<float> radius;           // of the first global gather, world units; measured if absent
     std::optional<float> causticRadius;    // likewise of the caustic gather, by region
     uint nearest = 0;                      // first radius: that of the k nearest photons, `radius` at most; 0: not so

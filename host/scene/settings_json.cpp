@@ -9,6 +9,7 @@ std::string settingsJson(const Settings& s) {
                                 {"integrator", integratorNames[s.integrator]},
                                 {"photons", s.photons},
                                 {"causticPhotons", s.causticPhotons},
+                                {"pixelSamples", s.pixelSamples},
                                 {"gatherRays", s.gatherRays},
                                 {"nearest", s.nearest},
                                 {"alpha", s.alpha},

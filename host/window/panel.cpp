@@ -149,6 +149,7 @@ void chooseSettings(const PanelInput& input, Choices& choices) {
     ImGui::PushItemWidth(0.42f * ImGui::GetWindowWidth());
     slider("photons", given.photons, now.photons, 100, 10'000'000);
     slider("caustic photons", given.causticPhotons, now.causticPhotons, 100, 10'000'000);
+    slider("pixel samples", given.pixelSamples, now.pixelSamples, 1, 64);
     slider("gather rays", given.gatherRays, now.gatherRays, 1, 64);
     radiusSlider("radius", given.radius, now.radius, input.state.globalRadii);
     radiusSlider("caustic radius", given.causticRadius, now.causticRadius, input.state.causticRadii);

@@ -14,6 +14,7 @@ Settings previewSettings(Settings settings) {
     settings.size = {16, 16};
     settings.photons = std::min(settings.photons, maxPhotons);
     settings.causticPhotons = std::min(settings.causticPhotons, maxPhotons);
+    settings.pixelSamples = 1;
     settings.gatherRays = 1;
     settings.guides = false;
     return settings;
