@@ -1,6 +1,7 @@
 /// Each layer of the photon integrator against the path tracer, which counts the same paths.
 #include "draw.h"
 #include "render_support.h"
+#include "scene/luminance.h"
 #include "shared_layers.h"
 #include <gtest/gtest.h>
 #include <map>
@@ -115,6 +116,69 @@ TEST(Layers, BoxIsNearerToTheTruthAtEqualPasses) {
     }
 }
 
+/// The mean over pixels of the variance of a layer's luminance between renders.
+double varianceOf(const std::vector<Rendered>& renders, uint layer) {
+    const std::size_t pixels = renders.front().pixels.size();
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels; i++) {
+        std::vector<double> values;
+        for (const Rendered& render : renders) values.push_back(luminance(render.pixels[i].mean.layers[layer]));
+        sum += std::pow(estimate(values).error, 2) * double(values.size());
+    }
+    return sum / double(pixels);
+}
+
+// Below a sky and a lamp, with a ball of glass and one of plastic: further paths of a pixel have the same means, and
+// take noise of light samples and of what glass shows; photons and gather rays know nothing of them.
+TEST(Layers, FurtherPathsOfAPixelTakeNoiseAlone) {
+    const auto ball = [](double x, const char* material) {
+        return nlohmann::json{{"type", "sphere"}, {"center", {x, 0.5, 0}}, {"radius", 0.5}, {"material", material}};
+    };
+    Scene scene = loadJson(
+        {{"camera", {{"origin", {0, 2, 5}}, {"target", {0, 0.5, 0}}, {"up", {0, 1, 0}}, {"fieldOfView", 35}}},
+         {"film", {{"size", {24, 18}}}},
+         {"environment", {{"radiance", {0.5, 0.6, 0.8}}}},
+         {"materials",
+          {{"grey", {{"type", "diffuse"}, {"albedo", 0.5}}},
+           {"glass", {{"type", "glass"}, {"ior", 1.5}}},
+           {"plastic", {{"type", "plastic"}, {"albedo", {0.6, 0.2, 0.1}}, {"roughness", 0.4}}}}},
+         {"shapes",
+          {{{"type", "rectangle"}, {"corner", {-4, 0, 4}}, {"edges", {{8, 0, 0}, {0, 0, -8}}}, {"material", "grey"}},
+           {{"type", "sphere"}, {"center", {-1, 3, 1}}, {"radius", 0.2}, {"emission", 60}},
+           ball(-0.7, "glass"),
+           ball(0.7, "plastic")}}});
+    std::map<uint, std::vector<Rendered>> renders;
+    std::map<uint, std::map<uint, Estimate>> means;
+    for (const uint paths : {1u, 5u}) {
+        std::map<uint, std::vector<double>> values;
+        for (uint seed = 0; seed < repetitions; seed++) {
+            Settings settings = scene.settings;
+            settings.pixelSamples = paths;
+            settings.seed = seed;
+            settings.photons = settings.causticPhotons = 2000;
+            settings.radius = settings.causticRadius = 0.2f;
+            renders[paths].push_back(renderPasses(scene, settings, 8));
+            for (const auto& [layer, _] : layerNames)
+                values[layer].push_back(layerMean(renders[paths].back().pixels, layer));
+        }
+        for (const auto& [layer, list] : values) means[paths][layer] = estimate(list);
+    }
+    for (const auto& [layer, name] : layerNames) {
+        const Estimate one = means[1][layer], five = means[5][layer];
+        std::printf("%-9s %.6f +- %.6f  five paths %.6f +- %.6f\n", name, one.mean, one.error, five.mean, five.error);
+        EXPECT_NEAR(five.mean, one.mean, 4 * std::hypot(one.error, five.error) + 1e-6 * one.mean) << name;
+    }
+    for (const auto& [layer, part] : {std::pair{LAYER_DIRECT, 0.4}, {LAYER_SPECULAR, 0.5}}) {
+        const double one = varianceOf(renders[1], layer), five = varianceOf(renders[5], layer);
+        std::printf("variance of %s: %.3g, five paths %.3g\n", layerNames.at(layer), one, five);
+        EXPECT_LT(five, part * one) << layerNames.at(layer);
+    }
+    for (std::size_t i = 0; i < renders[1][0].pixels.size(); i++) {
+        const float one = renders[1][0].pixels[i].mean.layers[LAYER_CAUSTIC].x;
+        EXPECT_NEAR(renders[5][0].pixels[i].mean.layers[LAYER_CAUSTIC].x, one, 1e-5f * one);
+    }
+}
+
 /// A lamp seen in a sheet of water from straight above, or in a pane of glass at 45 degrees, over black; `lamp` is its
 /// kind and place.
 nlohmann::json glint(const nlohmann::json& lamp, bool isPane) {
@@ -141,6 +205,7 @@ Estimate glintEstimate(const nlohmann::json& lamp, bool isPane, uint integrator)
     Settings settings = scene.settings;
     settings.integrator = integrator;
     settings.photons = settings.causticPhotons = 100;
+    settings.pixelSamples = 1;
     const std::vector<Pixel> pixels = renderPasses(scene, settings, 16).pixels;
     double squares = 0;
     for (const Pixel& pixel : pixels) squares += std::pow(double(pixel.noise.x), 2) / double(pixels.size());

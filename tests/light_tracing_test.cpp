@@ -130,6 +130,7 @@ TEST(LightTracing, ShowsTheCausticLayerAndTheFirstSurfaceAlone) {
     Settings settings = scene.settings;
     settings.size = {24, 24};
     settings.causticPhotons = 1000;
+    settings.pixelSamples = 1; // light tracing has one path for each pixel
     const std::vector<Pixel> photon = renderPasses(scene, settings, 2).pixels;
     settings.integrator = INTEGRATOR_LIGHT;
     const Rendered light = renderPasses(scene, settings, 2);

@@ -52,7 +52,7 @@ SharedValues share(const std::vector<Split>& splits, const Value& value, float r
     const Kernel<ShareGathersArgs> kernel(testGpu(), "share_gathers");
     Recording recording(testGpu());
     recording.run(kernel, pixels,
-                  {sceneBuffer, splitBuffer, sampleBuffer, pixels, pixels, 0, size.x, bandShift, 3, radius});
+                  {sceneBuffer, splitBuffer, sampleBuffer, pixels, pixels, 0, size.x, bandShift, 3, radius, 1});
     recording.submit();
     const std::vector<float> all = sampleBuffer.download();
     const auto column = [&](uint c) {

@@ -1,8 +1,8 @@
 /// vkpm plan: what a scene needs, what is left out and why, kernels' sizes, and memory by buffer.
 #include "commands/commands.h"
 #include "gpu/audit.h"
+#include "gpu/specialization.h"
 #include "gpu/spirv.h"
-#include "gpu/spirv_size.h"
 #include "job/memory_advice.h"
 #include "render/explain.h"
 #include "render/renderer.h"

@@ -1,5 +1,6 @@
 /// Pipelines: one shader stage, push constants, specialization constants, nothing else.
 #include "gpu/kernel_handles.h"
+#include "gpu/specialization.h"
 #include "gpu/spirv.h"
 #include "shared_kinds.h"
 #include <array>
@@ -33,11 +34,15 @@ static std::string embeddedName(const std::string& name, const Features& f) {
 }
 
 static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name,
-                                                         const std::string& embedded, const FeatureWords& features,
+                                                         const std::string& embedded, const Features& has,
                                                          std::uint32_t argsBytes) {
     auto handles = std::make_shared<RawKernel::Handles>();
     handles->name = name;
-    const auto words = findSpirv(embedded);
+    const FeatureWords features = wordsOf(has);
+    // Plain kernels are small as they are.
+    const bool isSpecial = embedded == name && features != wordsOf(Features{});
+    const std::vector<std::uint32_t> special = isSpecial ? specialized(name, has) : std::vector<std::uint32_t>{};
+    const auto words = isSpecial ? std::span(special) : findSpirv(embedded);
     std::array<vk::SpecializationMapEntry, featureIds.size()> entries;
     for (std::uint32_t i = 0; i < entries.size(); i++)
         entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
@@ -80,7 +85,7 @@ RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::
     std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(embedded).data(), featureBytes}];
     handles = known.lock();
     if (handles) return;
-    known = handles = compile(gpu.handles->device, name, embedded, words, argsBytes);
+    known = handles = compile(gpu.handles->device, name, embedded, features, argsBytes);
     if (gpu.compilesAhead) warmUp(*gpu.handles, handles, argsBytes);
     gpu.handles->recent.push_back(handles);
     if (gpu.handles->recent.size() > keptKernels) gpu.handles->recent.pop_front();
