@@ -111,11 +111,7 @@ bool isKnownExtension(std::string_view name) {
     return std::ranges::find(knownExtensions, name) != knownExtensions.end();
 }
 
-bool isGltfName(const fs::path& file) {
-    std::string end = file.extension().string();
-    for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return end == ".gltf" || end == ".glb";
-}
+bool isGltfName(const fs::path& file) { return hasEnding(file, ".gltf") || hasEnding(file, ".glb"); }
 
 GltfFile::GltfFile(fs::path path) : file{std::move(path)} {
     whole = readBytes(file, maxMeshBytes, "cut it into several", &read.emplace_back());
