@@ -26,7 +26,8 @@ class Attribute:
         if self.name not in values:
             return None
         by_vertex = self.name.startswith("vertex_")
-        found = np.array(values[self.name], float).reshape(len(values["vertex_positions"]) // 3 if by_vertex else len(faces), -1)
+        count = len(values["vertex_positions"]) // 3 if by_vertex else len(faces)
+        found = np.array(values[self.name], float).reshape(count, -1)
         found = np.broadcast_to(found[:, :3] if found.shape[1] >= 3 else found[:, :1], (len(found), 3)) * self.scale
         found = self.change(found) if self.change else found
         return found[faces] if by_vertex else np.repeat(found[:, None], 3, axis=1)

@@ -68,7 +68,8 @@ class Mesh:
             names, columns = [*names, "s", "t"], [*columns, self.uv * (1, -1) + (0, 1)]
         triangles = self.faces
         if self.colours is not None:  # no two corners share a point
-            names, columns = [*names, "red", "green", "blue"], [column[triangles].reshape(-1, column.shape[1]) for column in columns]
+            names = [*names, "red", "green", "blue"]
+            columns = [column[triangles].reshape(-1, column.shape[1]) for column in columns]
             columns.append(self.colours.reshape(-1, 3))
             triangles = np.arange(3 * len(triangles)).reshape(-1, 3)
         faces = np.empty(len(self.faces), [("count", "u1"), ("corners", "<i4", 3)])
