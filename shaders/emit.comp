@@ -10,6 +10,7 @@
 #include "guide.glsl"
 #include "light_sampling.glsl"
 #include "offset.glsl"
+#include "opacity.glsl"
 #include "projection_map.glsl"
 #include "random.glsl"
 #include "shared_paths.h"
@@ -19,8 +20,13 @@
 
 ARGS(EmitArgs)
 
-uint mediaOfLight(DeviceScene scene, uint light) {
-    return hasMedia && scene.media != uvec2(0u) ? uintPtr(scene.lightMedia).at[light] : 0u;
+// Of paths that start before a light, or behind it.
+uint mediaOfLight(DeviceScene scene, uint light, bool behind) {
+    return hasMedia && scene.media != uvec2(0u) ? uintPtr(scene.lightMedia).at[2u * light + uint(behind)] : 0u;
+}
+
+bool startsBehind(Light light, float numbers[PRIMARY_DIMENSIONS]) {
+    return isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5;
 }
 
 // A point on the light, and the side if there are two; then a direction, and the weight that makes up for a density
@@ -29,7 +35,7 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
                   out vec3 color) {
     vec2 place = vec2(numbers[PRIMARY_POSITION], numbers[PRIMARY_POSITION + 1u]);
     LightPoint point = sampleEmissionPoint(light, place);
-    if (isTwoSided(light) && numbers[PRIMARY_SIDE] < 0.5) point.normal = -point.normal;
+    if (startsBehind(light, numbers)) point.normal = -point.normal;
     bool bare = hasDeltaLights && isDelta(light), beam = hasSpots && isBeam(light);
     if (bare) point = LightPoint(light.a, abs(light.a), vec3(0.0));
 
@@ -51,6 +57,7 @@ void startOnLight(DeviceScene scene, Light light, float numbers[PRIMARY_DIMENSIO
     vec3 radiance = light.radiance;
     if (hasEmissionTextures && light.texture != 0u) radiance = texturedRadiance(scene, light, point.position);
     color = radiance / luminance(light.radiance);
+    if (hasOpacity && !bare) color *= opacityOfLight(scene, light, point.position);
 }
 
 // The same of a light that is endlessly far: photons start where they enter the scene, unless a far light hides it.
@@ -85,8 +92,8 @@ void main() {
         PrimarySamplePtr(args.starts).at[slot] = PrimarySample(numbers, weight, inverseDensity, 0u, 0u, vec3(0.0));
     weight *= inverseDensity;
 
-    args.paths.at[slot] =
-        Path(origin, aim.direction, color * (weight * light.share), 0.0, NONE, 0u, mediaOfLight(scene, chosen));
+    args.paths.at[slot] = Path(origin, aim.direction, color * (weight * light.share), 0.0, NONE, 0u,
+                               mediaOfLight(scene, chosen, startsBehind(light, numbers)));
     args.list.at[slot] = slot;
     args.counts.at[slot] = 0u;
     putFlags(args.flags, slot, PHOTON_QUEUES, weight > 0.0 ? 1u << QUEUE_CONTINUE : 0u);

@@ -6,6 +6,7 @@
 #include "light_endless.glsl"
 #include "light_sampling.glsl"
 #include "offset.glsl"
+#include "opacity.glsl"
 #include "shared_camera.h"
 
 // A sample of a light as a place sees it.
@@ -33,8 +34,10 @@ LightView viewLight(DeviceScene scene, Light light, vec3 origin, vec2 place) {
     LightSample seen = sampleLight(light, origin, place);
     vec3 w = normalize(seen.point.position - origin);
     vec3 lightSide = dot(w, seen.point.normal) > 0.0 ? -seen.point.normal : seen.point.normal;
-    return LightView(w, emittedRadianceAt(scene, light, seen.point, -w), seen.inversePdf,
-                     offsetPoint(seen.point.position, seen.point.magnitude, lightSide), 0u, true);
+    vec3 radiance = emittedRadianceAt(scene, light, seen.point, -w);
+    if (hasOpacity) radiance *= opacityOfLight(scene, light, seen.point.position);
+    return LightView(w, radiance, seen.inversePdf, offsetPoint(seen.point.position, seen.point.magnitude, lightSide),
+                     0u, true);
 }
 
 #endif

@@ -29,4 +29,17 @@ bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weigh
     return choice >= opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
 }
 
+// The part of an area light that is there at a point of it. Rays run into that part alone; light samples and photons
+// are weighted by it.
+float opacityOfLight(DeviceScene scene, Light light, vec3 position) {
+    uint primitive = light.primitive;
+    if (light.kind == LIGHT_RECTANGLE) {
+        vec2 w = weightsOf(light.u, light.v, position - light.a);
+        primitive += uint(w.y > w.x);
+    }
+    Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
+    if (m.seeThrough == 0.0) return 1.0;
+    return opacityAt(scene, m, primitive, weightsAt(scene, primitive, position), position);
+}
+
 #endif

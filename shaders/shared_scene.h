@@ -120,9 +120,10 @@ struct Light {
     vec3 radiance;
     uint kind; // LIGHT_...; it says what a, u and v are
     uint twoSided;
-    float area;   // of lights without one, flux over pi times radiance
-    float share;  // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
-    uint texture; // 0, or 1 + index into DeviceScene.lightTextures; then `radiance` is about its mean
+    float area;     // of lights without one, flux over pi times radiance
+    float share;    // of all flux, over the probability by DeviceScene.lightCdf: nearly 1
+    uint texture;   // 0, or 1 + index into DeviceScene.lightTextures; then `radiance` is about its mean
+    uint primitive; // of an area light, or the first of two
 };
 BUFFER(Light)
 
@@ -171,7 +172,7 @@ struct DeviceScene {
     ADDRESS(float) targetWeights; // by which targets are chosen, times their solid angle; of layered materials alone
     ADDRESS(float) rests;         // rows of REST_ROW numbers
     ADDRESS(Medium) media;
-    ADDRESS(uint) lightMedia; // by light, of paths that start there
+    ADDRESS(uint) lightMedia; // by light, of paths that start before it and behind it
     ADDRESS(uint) touching; // by triangle, where the list of those that may lie on it begins, here too; then the lists
     ADDRESS(Sky) sky;
     ADDRESS(MaterialTextures) materialTextures;

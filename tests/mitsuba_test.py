@@ -95,22 +95,31 @@ def shapes(folder: Path) -> str:
 
 
 def meshes(folder: Path) -> str:
-    """An OBJ file with an image, a PLY file with normals, instances, one of them mirrored."""
+    """An OBJ file with an image, a PLY file with normals and colours of vertices, one with colours of faces, instances,
+    one of them mirrored."""
     folder.joinpath("roof.obj").write_text(
         "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0.5 1\n"
         "f 4/1 3/2 5/3\nf 3/1 2/2 5/3\nf 2/1 1/2 5/3\nf 1/1 4/2 5/3\n")
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 33), np.linspace(0, np.pi, 17))
     points = np.stack([np.sin(v) * np.cos(u), 0.6 * np.cos(v), 0.8 * np.sin(v) * np.sin(u)], -1).reshape(-1, 3)
     normals = points / np.array((1, 0.36, 0.64))
-    lines = [" ".join(f"{x:.6f}" for x in (*p, *n / np.linalg.norm(n))) for p, n in zip(points, normals, strict=True)]
+    colours = 0.5 + 0.4 * points / (1, 0.6, 0.8)
+    lines = [" ".join(f"{x:.6f}" for x in (*p, *n / np.linalg.norm(n), *c))
+             for p, n, c in zip(points, normals, colours, strict=True)]
     faces = [f"3 {a} {b} {c}" for j in range(16) for i in range(32) for k in (33 * j + i,)
              for a, b, c in ((k, k + 1, k + 34), (k, k + 34, k + 33))[not j:2 - (j == 15)]]
     folder.joinpath("egg.ply").write_text(
         "ply\nformat ascii 1.0\n" + f"element vertex {len(lines)}\n"
-        + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+        + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz", "r", "g", "b"))
         + f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
         + "\n".join(lines + faces) + "\n")
+    folder.joinpath("tiles.ply").write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty float r\nproperty float g\n"
+        "property float b\nend_header\n-1 0 0\n1 0 0\n1 1 0\n-1 1 0\n3 0 1 2 0.8 0.2 0.1\n3 0 2 3 0.1 0.3 0.7\n")
     name = image(folder, "letter.png", letter())
+    coloured = ('<bsdf type="twosided"><bsdf type="{}"><texture type="mesh_attribute" name="{}">'
+                '<string name="name" value="{}"/></texture></bsdf></bsdf>')
     group = ('<shape type="shapegroup" id="group">'
              + shape("cube", diffuse("0.7, 0.3, 0.2"), '<scale x="0.2" y="0.6" z="0.2"/><translate x="0.3" y="0.6"/>')
              + shape("sphere", diffuse("0.2, 0.5, 0.7"), '<scale value="0.25"/><translate x="-0.1" y="0.25"/>')
@@ -121,8 +130,10 @@ def meshes(folder: Path) -> str:
     return scene(
         FLOOR, SKY, group, shape("obj", textured, '<scale value="0.9"/><translate x="-1.5"/>', file.format("roof.obj")
                           + '<boolean name="face_normals" value="true"/>'),
-        shape("ply", diffuse("0.6, 0.6, 0.2"), '<scale value="0.8"/><translate y="0.5" z="0.6"/>',
-              file.format("egg.ply")),
+        shape("ply", coloured.format("diffuse", "reflectance", "vertex_color"),
+              '<scale value="0.8"/><translate y="0.5" z="0.6"/>', file.format("egg.ply")),
+        shape("ply", coloured.format("conductor", "specular_reflectance", "face_color"),
+              '<translate x="0.2" y="0.6" z="-1.5"/>', file.format("tiles.ply")),
         *(shape("instance", '<ref id="group"/>', place) for place in
           ('<translate x="1.3"/>', '<scale x="-1"/><rotate y="1" angle="40"/><translate x="2.2" z="-0.8"/>')))
 

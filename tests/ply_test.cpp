@@ -61,7 +61,8 @@ TEST(Ply, WhatIsWrongHasItsPlace) {
     const std::string ascii = asciiPly(), binary = binaryPly<std::endian::little>();
     const std::size_t end = ascii.size();
     const std::pair<std::string, std::string> wrong[] = {
-        {replaced(ascii, "ascii", "utf8"), ".ply:2: found \"utf8\" as format"},
+        {replaced(ascii, "ascii", "utf8"), ".ply:2: found \"utf8 1.0\" as format"},
+        {"PLY" + ascii.substr(3), ".ply:1: found \"PLY\"; a PLY file begins with the line \"ply\""},
         {replaced(ascii, "float x", "half x"), ".ply:5: found \"half\" as type"},
         {replaced(ascii, "float x", "float u"), ".ply:4: vertices have no property \"x\""},
         {replaced(ascii, "float y", "float x"), ".ply:6: found the property \"x\" twice"},

@@ -77,7 +77,6 @@ const Invalid invalid[] = {
     {"negative_emission", ": /shapes/1/emission/1: ", "found -1", Schema::refuses},
     {"no_light", ": /shapes: ", "there is no light", Schema::accepts},
     {"black_light", ": /shapes: ", "there is no light", Schema::accepts},
-    {"emission_on_mirror", ": /shapes/0/emission: ", "not diffuse", Schema::accepts},
     {"missing_mesh", ": /shapes/0/file: ", "does not exist", Schema::accepts},
     {"mesh_is_a_folder", ": /shapes/0/file: ", "a folder", Schema::accepts},
     {"camera_at_its_target", ": /camera/target: ", "the target is the origin", Schema::accepts},

@@ -272,6 +272,7 @@ void RenderJob::tell(const std::string& warning) {
 
 /// Whether no pixel has light; a few rows tell of most pictures.
 bool RenderJob::isBlack() const {
+    if ((settings.layers & ((1u << LAYER_COUNT) - 1)) == 0) return false; // nobody asked for light
     const auto isDark = [](const Pixel& pixel) {
         return std::ranges::all_of(pixel.mean.layers, [](vec3 light) { return light == vec3{0}; });
     };

@@ -93,6 +93,12 @@ std::string decodePercent(std::string_view uri) {
     return text;
 }
 
+/// Whether a reference is data itself (RFC 2397).
+bool isDataUri(std::string_view uri) {
+    return std::ranges::equal(uri.substr(0, 5), std::string_view{"data:"}, {},
+                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+}
+
 /// Whether a reference begins with a scheme, such as "https:".
 bool hasScheme(std::string_view uri) {
     const std::size_t end = uri.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+.-");
@@ -105,11 +111,7 @@ bool isKnownExtension(std::string_view name) {
     return std::ranges::find(knownExtensions, name) != knownExtensions.end();
 }
 
-bool isGltfName(const fs::path& file) {
-    std::string end = file.extension().string();
-    for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return end == ".gltf" || end == ".glb";
-}
+bool isGltfName(const fs::path& file) { return hasEnding(file, ".gltf") || hasEnding(file, ".glb"); }
 
 GltfFile::GltfFile(fs::path path) : file{std::move(path)} {
     whole = readBytes(file, maxMeshBytes, "cut it into several", &read.emplace_back());
@@ -126,6 +128,9 @@ GltfFile::GltfFile(fs::path path) : file{std::move(path)} {
     if (!version.starts_with("2."))
         root().at("asset").at("version").fail(fmt::format("found version \"{}\" of glTF", printable(version, 20)),
                                               "allowed is 2.0; write it anew with a program of today");
+    if (const auto least = root().at("asset").find("minVersion"); least && least->text() != "2.0")
+        least->fail(fmt::format("the file requires version \"{}\" of glTF", printable(least->text(), 20)),
+                    "allowed is 2.0; write it anew for that");
     requireExtensions();
 }
 
@@ -230,8 +235,11 @@ std::string GltfFile::loadBuffer(Reader place, std::size_t number) {
 
 std::string GltfFile::loadUri(const Reader& uri) {
     const std::string text = uri.text();
-    const std::size_t comma = text.starts_with("data:") ? text.find(";base64,") : text.npos;
-    return comma == text.npos ? loadFile(uri, text) : decodeBase64(uri, std::string_view{text}.substr(comma + 8));
+    const std::string_view data = text;
+    const std::size_t comma = isDataUri(data) ? data.find(',') : data.npos;
+    if (comma == data.npos) return loadFile(uri, text);
+    return data.substr(0, comma).ends_with(";base64") ? decodeBase64(uri, data.substr(comma + 1))
+                                                      : decodePercent(data.substr(comma + 1));
 }
 
 std::string GltfFile::image(Reader& place) {

@@ -75,7 +75,7 @@ public:
     json opaque() {
         json result{{"type", "standard"},
                     {"baseColor", withFactor(baseTexture, listOf(base))},
-                    {"metallic", withFactor(roughnessTexture, metallic)},
+                    {"metallic", metallic > 0 ? withFactor(roughnessTexture, metallic) : json(0)},
                     {"roughness", withFactor(roughnessTexture, roughness)}};
         if (ior != 1.5f) result["ior"] = ior;
         if (specular != 1 || specularTexture) result["specular"] = withFactor(specularTexture, specular);
@@ -134,18 +134,12 @@ public:
         (*texture)["strength"] = numberOr(info, "scale", 1, {-1000, 1000});
         to["normalMap"] = *texture;
     }
-    void loseOpacity() {
-        if (!opacity.is_null()) lose("the opacity of what emits is left out");
-    }
 
     bool isTwoSided() {
         const auto twoSided = material.find("doubleSided");
         return twoSided && twoSided->boolean();
     }
     bool transmits() const { return transmission > 0 && (metallic < 1 || roughnessTexture); }
-    void loseTransmission() {
-        if (transmits()) lose("the transmission of what emits is left out");
-    }
 
 private:
     std::optional<Reader> extension(std::string_view name) {
@@ -170,7 +164,10 @@ private:
         if (const auto color = older->find("diffuseFactor")) base = readBase(*color);
         if (const auto info = older->find("diffuseTexture")) baseTexture = textures.read(*info, true);
         specularColorTexture = textureOf(older, "specularGlossinessTexture", true);
-        if (specularColorTexture) lose("the gloss of a texture of specular colour and gloss is left out");
+        if (const auto info = older->find("specularGlossinessTexture"); info && roughness < 1) {
+            roughnessTexture = textures.roughnessOfGloss(*info, 1 - roughness);
+            roughness = 1;
+        }
     }
 
     vec3 readBase(const Reader& color) {
@@ -227,12 +224,10 @@ private:
 GltfMaterial readGltfMaterial(Reader material, GltfGlass glass, GltfTextures textures, Losses& losses) {
     GltfSurface surface(std::move(material), textures, losses);
     GltfMaterial result{.radiance = surface.readEmission(), .twoSided = surface.isTwoSided()};
-    const bool emits = result.radiance != vec3{0}; // glass may not, nor what is not opaque
     result.emission = surface.emissionTexture(result.radiance);
-    result.material = surface.transmits() && !emits ? surface.transparent(glass) : surface.opaque();
+    result.material = surface.transmits() ? surface.transparent(glass) : surface.opaque();
     surface.addNormalMap(result.material);
-    if (emits) surface.loseOpacity(), surface.loseTransmission();
-    else surface.addOpacity(result.material);
+    surface.addOpacity(result.material);
     return result;
 }
 

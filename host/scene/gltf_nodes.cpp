@@ -47,6 +47,8 @@ public:
         const auto nodes = file.root().find("nodes");
         visited.resize(nodes ? nodes->count(0, NONE, "an array of nodes") : 0);
         pushRoots();
+        if (const auto moves = file.root().find("animations"))
+            losses.add(*moves, "animations are left out: all is where its node is");
         while (!stack.empty()) {
             const auto [index, parent] = std::move(stack.back());
             stack.pop_back();
@@ -62,6 +64,8 @@ private:
             const auto chosen = file.root().find("scene");
             Reader scene = chosen ? file.referenced(*chosen, "scenes") : scenes->element(0);
             if (const auto roots = scene.find("nodes")) push(*roots, dmat4{1});
+            if (scenes->count(0, NONE, "") > 1)
+                losses.add(*scenes, "all scenes but the file's default one are left out");
             return;
         }
         // Without a scene: all nodes that are no children.

@@ -52,6 +52,12 @@ std::optional<json> GltfTextures::read(Reader info, bool isColor) {
     return result;
 }
 
+std::optional<json> GltfTextures::roughnessOfGloss(const Reader& info, float gloss) {
+    auto texture = read(info, false);
+    if (texture) (*texture)["texture"] = textures.giveRoughness(info, (*texture)["texture"], gloss);
+    return texture;
+}
+
 /// The name by which textures know the image.
 std::optional<std::string> GltfTextures::imageOf(Reader& texture) {
     const auto source = texture.find("source");

@@ -14,6 +14,9 @@ public:
     /// and a loss, if vkpm cannot read it.
     std::optional<nlohmann::json> read(Reader info, bool isColor);
 
+    /// That of the roughness which the alpha of such a texture, as gloss, stands for.
+    std::optional<nlohmann::json> roughnessOfGloss(const Reader& info, float gloss);
+
 private:
     std::optional<std::string> imageOf(Reader& texture);
 

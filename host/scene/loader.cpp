@@ -154,11 +154,6 @@ ShapeLoader::Surface importedSurface(Import& import, const ImportedPart& part, S
         const Material material = readMaterial(Reader{scene.files.front(), imported.material}, textures);
         surface.material = static_cast<uint>(scene.materials.size());
         scene.materials.push_back(material);
-    } else if (const Material& its = scene.materials[surface.material];
-               surface.radiance != vec3{0} && (!mayEmit(its) || its.seeThrough > 0)) {
-        import.lose(part.place, "what it emits is left out: its material in the scene file is not diffuse");
-        surface.radiance = vec3{0};
-        surface.emission = NONE;
     }
     noteFiles(scene, import.files()); // with those of images
     return surface;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 #include <numeric>
+#include <optional>
 
 namespace vkpm {
 namespace {
@@ -92,12 +93,49 @@ double windingOf(const Primitive& p, dvec3 point) {
     return std::atan2(glm::dot(a, glm::cross(b, c)), below) / (2 * glm::pi<double>());
 }
 
-/// A point of a light.
-dvec3 pointOf(const Light& light) {
-    const dvec3 a{light.a};
-    if (light.kind == LIGHT_SPHERE) return a + dvec3{light.u.x, 0, 0};
-    if (light.kind == LIGHT_TRIANGLE) return a + (dvec3{light.u} + dvec3{light.v}) / 3.0;
-    return light.kind == LIGHT_RECTANGLE ? a + (dvec3{light.u} + dvec3{light.v}) / 2.0 : a;
+/// A point next to a light, before its face or behind it: glass that emits has another medium there.
+dvec3 pointNextTo(const Light& light, bool behind) {
+    const dvec3 a{light.a}, u{light.u}, v{light.v};
+    const double near = behind ? -1e-3 : 1e-3; // of its size
+    if (light.kind == LIGHT_SPHERE) return a + dvec3{(1 + near) * u.x, 0, 0};
+    if (light.kind != LIGHT_TRIANGLE && light.kind != LIGHT_RECTANGLE) return a;
+    const dvec3 across = glm::cross(u, v); // over a side it is as long as the light is wide
+    const double longest = std::max({glm::length(u), glm::length(v), glm::length(v - u)});
+    return a + (u + v) / (light.kind == LIGHT_TRIANGLE ? 3.0 : 2.0) + near / longest * across;
+}
+
+/// Both sides' media of a light; that behind counts for what emits there.
+struct Sides {
+    uint before, behind;
+    bool operator==(const Sides&) const = default;
+};
+
+Sides mediaOf(const Light& light, const MediaLocator& locator) {
+    if (isEndless(light)) return {0, 0};
+    const uint before = locator.at(pointNextTo(light, false));
+    return {before, light.twoSided != 0 ? locator.at(pointNextTo(light, true)) : before};
+}
+
+/// Fills `lightMedia`. Of glass that emits, triangles are asked one by one only if some do not agree: each is a look at
+/// all of the glass.
+void findLightMedia(Scene& scene) {
+    const MediaLocator locator{scene};
+    std::vector<std::optional<Sides>> found(scene.lights.size());
+    for (const GlassShape& shape : scene.glass) {
+        std::vector<uint> lights;
+        for (std::size_t i = shape.first; i < shape.end; i++)
+            if (const uint light = scene.primitives[i].light; light != NONE) lights.push_back(light);
+        const std::size_t step = std::max<std::size_t>(1, lights.size() / 16);
+        for (std::size_t i = 0; i < lights.size(); i += step)
+            found[lights[i]] = mediaOf(scene.lights[lights[i]], locator);
+        const auto agrees = [&](uint light) { return !found[light] || found[light] == found[lights[0]]; };
+        if (std::ranges::all_of(lights, agrees))
+            for (const uint light : lights) found[light] = found[lights[0]];
+    }
+    for (std::size_t i = 0; i < found.size(); i++) {
+        const Sides sides = found[i] ? *found[i] : mediaOf(scene.lights[i], locator);
+        scene.lightMedia.insert(scene.lightMedia.end(), {sides.before, sides.behind});
+    }
 }
 
 } // namespace
@@ -123,9 +161,7 @@ void findMedia(Scene& scene, const std::filesystem::path& file) {
                                       vec3{std::numeric_limits<float>::max()});
     for (Material& material : scene.materials)
         if (material.kind == MATERIAL_GLASS && material.alpha >= LEAST_ALPHA) material.kind = MATERIAL_ROUGH_GLASS;
-    const MediaLocator locator{scene};
-    for (const Light& light : scene.lights)
-        scene.lightMedia.push_back(isEndless(light) ? 0 : locator.at(pointOf(light)));
+    findLightMedia(scene);
 }
 
 MediaLocator::MediaLocator(const Scene& scene) : media(scene.media.size()) {

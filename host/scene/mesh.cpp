@@ -96,6 +96,7 @@ static std::string_view formatOf(const std::filesystem::path& file) {
                                                                        {"PXR-USDC"sv, "a USD file"}};
     for (const auto& [magic, name] : MAGIC)
         if (begin.starts_with(magic)) return name;
+    if (hasEnding(file, ".ply")) return "PLY";
     if (begin.starts_with("solid") && begin.find("facet") != begin.npos) return "an STL file";
     const std::size_t first = begin.find_first_not_of(" \t\r\n");
     if (isGltfName(file) || (first != begin.npos && begin[first] == '{')) return "glTF"; // or other JSON

@@ -71,7 +71,6 @@ std::size_t ShapeLoader::addParts(Reader& shape, Reader& byName, const Mesh& mes
                                                   : "it has " + quotedList(mesh.materialNames));
         Surface& its = surfaces[std::size_t(found - mesh.materialNames.begin())];
         its.material = materialNamed(value);
-        requireEmitter(value, its);
     }
     std::size_t dropped = 0;
     const auto addPart = [&](const Surface& its, uint part) {

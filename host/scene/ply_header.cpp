@@ -34,7 +34,11 @@ public:
     PlyHeaderReader(const std::filesystem::path& path, std::string_view all) : file{path}, bytes{all} {}
 
     PlyHeader read() {
-        takeWords(); // "ply", by which the file is known
+        if (bytes.starts_with("\xEF\xBB\xBF")) header.bytes = 3;
+        const std::vector<std::string> first = takeWords();
+        if (first.size() != 1 || first[0] != "ply")
+            fail(fmt::format("found \"{}\"", first.empty() ? "" : printable(first[0], 60)),
+                 "a PLY file begins with the line \"ply\"");
         bool hasFormat = false;
         for (;;) {
             const std::vector<std::string> words = takeWords();
@@ -76,7 +80,8 @@ private:
         constexpr std::array names{"ascii", "binary_little_endian", "binary_big_endian"};
         const auto* const name = words.size() < 2 ? names.end() : std::ranges::find(names, words[1]);
         if (name == names.end() || words.size() != 3 || words[2] != "1.0")
-            fail(fmt::format("found \"{}\" as format", words.size() < 2 ? "" : printable(words[1], 60)),
+            fail(fmt::format("found \"{}{}{}\" as format", words.size() < 2 ? "" : printable(words[1], 60),
+                             words.size() < 3 ? "" : " ", words.size() < 3 ? "" : printable(words[2], 60)),
                  "allowed are \"ascii 1.0\", \"binary_little_endian 1.0\" and \"binary_big_endian 1.0\"");
         header.format = static_cast<PlyFormat>(name - names.begin());
     }

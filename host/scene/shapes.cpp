@@ -44,10 +44,6 @@ double soundArea(vec3 u, vec3 v) {
     return sound ? area : 0;
 }
 
-bool mayEmit(const Material& material) {
-    return material.kind == MATERIAL_DIFFUSE || material.kind == MATERIAL_STANDARD;
-}
-
 std::vector<dvec3> ShapeLoader::somePlaces(Reader shape) try {
     const Transform transform = readTransform(shape);
     if (const auto center = shape.find("center")) {
@@ -81,6 +77,9 @@ void ShapeLoader::add(Reader shape) {
 void ShapeLoader::finish() {
     scene.triangleCount = static_cast<uint>(scene.primitives.size());
     scene.primitives.insert(scene.primitives.end(), spheres.begin(), spheres.end());
+    for (std::size_t i = scene.primitives.size(); i-- > 0;)
+        if (const uint light = scene.primitives[i].light; light != NONE)
+            scene.lights[light].primitive = static_cast<uint>(i);
     for (const Texture& texture : scene.textured.textures)
         scene.textured.sets = std::max(scene.textured.sets, texture.set + 1);
     if (coordinates[0].empty()) scene.textured.sets = 0;
@@ -122,16 +121,7 @@ ShapeLoader::Surface ShapeLoader::readSurface(Reader& shape, bool mayLackMateria
     else if (emission) surface.material = blackMaterial();
     else if (mayLackMaterial) surface.material = NONE;
     else (void)shape.at("material"); // which is missing
-    if (emission && surface.material != NONE) requireEmitter(*emission, surface);
     return surface;
-}
-
-void ShapeLoader::requireEmitter(const Reader& place, const Surface& surface) const {
-    if (surface.radiance != vec3{0} && !mayEmit(scene.materials[surface.material]))
-        place.fail("found emission on a material that is not diffuse",
-                   "only diffuse and standard shapes may emit, which transmit nothing");
-    if (surface.radiance != vec3{0} && scene.materials[surface.material].seeThrough > 0)
-        place.fail("found emission on a material that is not opaque", "only opaque shapes may emit");
 }
 
 uint ShapeLoader::materialNamed(const Reader& reader) const {

@@ -18,9 +18,6 @@ Transform readTransform(Reader& shape);
 /// Area of the parallelogram of two edges; 0 if it is so thin or small that its normal would drown in rounding.
 double soundArea(vec3 u, vec3 v);
 
-/// Whether shapes of a material may emit: diffuse and standard ones.
-bool mayEmit(const Material& material);
-
 /// Fills the primitives, normals, lights and targets of a scene, shape by shape.
 class ShapeLoader {
 public:
@@ -48,7 +45,6 @@ public:
 
 private:
     Surface readSurface(Reader& shape, bool mayLackMaterial = false);
-    void requireEmitter(const Reader& place, const Surface& surface) const;
     uint materialNamed(const Reader& reader) const;
     uint blackMaterial();
     const Mesh& meshOf(Reader& shape);

@@ -154,4 +154,9 @@ void refuseFile(const fs::path& file, std::string_view place, std::string_view f
                                  printable(allowed, 600)));
 }
 
+bool hasEnding(const std::filesystem::path& file, std::string_view ending) {
+    return std::ranges::equal(file.extension().string(), ending, {},
+                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+}
+
 } // namespace vkpm

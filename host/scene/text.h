@@ -14,6 +14,9 @@ const std::uint64_t maxMeshBytes = 1ull << 30;
 /// Why a file cannot be read as text; empty if it can. Only a regular file is sure to have an end.
 std::string fileProblem(const std::filesystem::path& file, bool regular = false);
 
+/// Whether a name has an ending, such as ".ply", in letters of any size.
+bool hasEnding(const std::filesystem::path& file, std::string_view ending);
+
 /// A file that was read, with the hash of the bytes that came, see hashText.
 struct FileRead {
     std::filesystem::path path;

@@ -1,6 +1,5 @@
 /// Reading of texture objects; images by the libraries of their formats.
 #include "scene/textures.h"
-#include "image/picture.h"
 #include "scene/text.h"
 #include <algorithm>
 #include <bit>
@@ -135,6 +134,25 @@ std::vector<uint> Textures::tables() const {
     return words;
 }
 
+Picture Textures::decoded(const Reader& place, const std::string& name, std::string_view bytes) const try {
+    const auto ready = made.find(name);
+    return ready != made.end() ? ready->second : decodePicture(bytes);
+} catch (const InputError& error) {
+    place.fail(fmt::format("{}: {}", printable(name, 4096), error.what()), "give another image");
+}
+
+std::string Textures::giveRoughness(const Reader& place, const std::string& name, float gloss) {
+    std::string result = fmt::format("{}: 1 - {} x alpha", name, gloss);
+    if (knows(result)) return result;
+    Picture picture = decoded(place, name, given.at(name));
+    for (uint& texel : picture.bytes)
+        texel = 0x01010101u * static_cast<uint>(std::lround(255 - gloss * static_cast<float>(texel >> 24)));
+    for (vec4& texel : picture.floats) texel = vec4{1 - gloss * texel.w};
+    made[result] = std::move(picture);
+    give(result, "");
+    return result;
+}
+
 Textures::Stored Textures::store(const Reader& place, const std::string& name, std::string_view bytes,
                                  TexelSpace space) {
     std::vector<uint>& texels = scene.textured.texels;
@@ -145,12 +163,7 @@ Textures::Stored Textures::store(const Reader& place, const std::string& name, s
         image.format = format;
         return {image, false};
     }
-    Picture picture;
-    try {
-        picture = decodePicture(bytes);
-    } catch (const InputError& error) {
-        place.fail(fmt::format("{}: {}", printable(name, 4096), error.what()), "give another image");
-    }
+    const Picture picture = decoded(place, name, bytes);
     TexelImage image{static_cast<uint>(texels.size()), picture.width, picture.height, format};
     const std::uint64_t words = std::uint64_t{picture.width} * picture.height * (picture.bytes.empty() ? 4 : 1);
     if (texels.size() + words > maxTexelWords)

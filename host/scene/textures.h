@@ -1,5 +1,6 @@
 /// Texture objects of scene files, and the images that they name.
 #pragma once
+#include "image/picture.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 #include <map>
@@ -34,6 +35,8 @@ public:
     /// Bytes of an image that texture objects may name in place of a file.
     void give(const std::string& name, std::string bytes) { given[name] = std::move(bytes); }
     bool knows(const std::string& name) const { return given.contains(name); }
+    /// Makes known the roughness 1 - gloss x alpha of an image that was given; returns its name.
+    std::string giveRoughness(const Reader& place, const std::string& name, float gloss);
 
     /// What Material.textures says of a material with these textures: 0 if it has none.
     uint place(const MaterialTextures& textures);
@@ -58,11 +61,13 @@ private:
 
     uint read(Reader object, Use use, uint channel);
     Stored store(const Reader& place, const std::string& name, std::string_view bytes, TexelSpace space);
+    Picture decoded(const Reader& place, const std::string& name, std::string_view bytes) const;
     std::vector<uint> tables() const;
     float greatest(const Texture& texture) const;
 
     std::map<uint, uint> colored; // materials by those that they were made of
     std::map<std::string, std::string> given;
+    std::map<std::string, Picture> made;                       // of images that were given
     std::map<std::pair<std::string, TexelSpace>, uint> images; // by name
     std::map<std::string, TexelImage> narrow;                  // of 8 bits, which every space can read
 };

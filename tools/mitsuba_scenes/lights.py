@@ -79,7 +79,7 @@ class Lights:
 
     def add_spot(self, node: Node) -> None:
         if node.child("texture") is not None:
-            node.lose("textures of spots")
+            node.lose("textures of spots (a spot of vkpm sends the same light to all sides; a screen may have one)")
         outer, inner = float(node.values["cutoff_angle"]), float(node.values["beam_width"])
         if inner < outer:
             node.lose("the penumbra of spots, which falls as the angle (in vkpm as the square of a line in the cosine)")

@@ -1,5 +1,7 @@
 """BSDFs as materials of vkpm."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mitsuba_scenes.images import Change, Images
@@ -11,6 +13,26 @@ AIR = 1.001  # what refracts less counts as nothing
 NAMED_IOR = {"vacuum": 1.0, "helium": 1.000036, "hydrogen": 1.000132, "air": 1.000277, "carbon dioxide": 1.00045}
 
 
+@dataclass
+class Attribute:
+    """Colours that a mesh has, times a scale, and what is done to them."""
+
+    name: str
+    scale: float
+    change: Change | None
+
+    def of(self, values: dict, faces: np.ndarray) -> np.ndarray | None:
+        """For each corner of the faces a colour; none if the mesh has no such attribute."""
+        if self.name not in values:
+            return None
+        by_vertex = self.name.startswith("vertex_")
+        count = len(values["vertex_positions"]) // 3 if by_vertex else len(faces)
+        found = np.array(values[self.name], float).reshape(count, -1)
+        found = np.broadcast_to(found[:, :3] if found.shape[1] >= 3 else found[:, :1], (len(found), 3)) * self.scale
+        found = self.change(found) if self.change else found
+        return found[faces] if by_vertex else np.repeat(found[:, None], 3, axis=1)
+
+
 class Materials:
     """The materials of a scene by their names; each BSDF becomes one."""
 
@@ -18,6 +40,8 @@ class Materials:
         self.images = images
         self.found: dict[str, dict] = {}
         self.names: dict[tuple[int, bool, tuple[float, float]], str] = {}
+        self.colours: dict[str, Attribute] = {}  # of meshes, by which those of their materials are multiplied
+        self.attribute: Attribute | None = None
         self.upward = True
         self.stretch: tuple[float, float] = 1, 1
 
@@ -28,6 +52,7 @@ class Materials:
         self.stretch = stretch if relief(node) else (1, 1)
         key = node.index, self.upward, self.stretch
         if key not in self.names:
+            self.attribute = None
             material = self.read(node)
             if material is None:
                 return None
@@ -36,17 +61,30 @@ class Materials:
             while name in self.found:
                 name += "'"
             self.found[name] = material
+            if self.attribute:
+                self.colours[name] = self.attribute
             self.names[key] = name
         return self.names[key]
 
     def value(self, node: Node, name: str, default: float, change: Change | None = None, grey: bool = False):
         """A colour, a number or a texture."""
         child = node.child(name)
+        if child is not None and child.plugin == "mesh_attribute" and not grey:
+            return self.colours_of_mesh(child, change)
         if child is not None:
             return self.images.texture(child, change, grey)
         values = np.broadcast_to(node.value(name, default), 3).astype(float)
         values = change(values) if change else values
         return number(values.mean()) if grey else colour(values)
+
+    def colours_of_mesh(self, node: Node, change: Change | None) -> float:
+        """A white that the colours in a mesh's file multiply."""
+        attribute = Attribute(node.get("name"), float(node.get("scale", 1)), change)
+        if self.attribute and self.attribute.name != attribute.name:
+            node.lose("a second attribute of meshes in a material; 0.5 stands for it")
+            return 0.5
+        self.attribute = attribute
+        return 1
 
     def roughness(self, node: Node) -> dict | float:
         """The root of alpha, as vkpm has it."""

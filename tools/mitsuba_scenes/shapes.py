@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from mitsuba_scenes.images import SPECTRA, Images
-from mitsuba_scenes.materials import Materials, relief
+from mitsuba_scenes.materials import Attribute, Materials, relief
 from mitsuba_scenes.source import Failure, Matrix, Node, colour, mi, number, numbers
 
 SEGMENTS = 128  # around discs, cylinders and spheres that become meshes
@@ -17,11 +17,12 @@ ONE_SIDED = ("diffuse", "roughdiffuse", "plastic", "roughplastic", "pplastic", "
 class Mesh:
     """Points, texture coordinates, which go down, and normals, if there are any; triangles, counterclockwise."""
 
-    def __init__(self, points, faces, normals=None, uv=None):
+    def __init__(self, points, faces, normals=None, uv=None, colours=None):
         self.points = np.asarray(points, np.float64).reshape(-1, 3)
         self.faces = np.asarray(faces, np.int32).reshape(-1, 3)
         self.normals = None if normals is None or not len(normals) else np.asarray(normals, np.float64).reshape(-1, 3)
         self.uv = None if uv is None or not len(uv) else np.asarray(uv, np.float64).reshape(-1, 2)
+        self.colours = colours  # of each corner
 
     def moved(self, matrix: Matrix) -> "Mesh":
         """The mesh in other coordinates; its outside stays outside, also in a mirror."""
@@ -65,9 +66,15 @@ class Mesh:
             names, columns = [*names, "nx", "ny", "nz"], [*columns, self.normals / np.where(lengths > 0, lengths, 1)]
         if self.uv is not None:
             names, columns = [*names, "s", "t"], [*columns, self.uv * (1, -1) + (0, 1)]
+        triangles = self.faces
+        if self.colours is not None:  # no two corners share a point
+            names = [*names, "red", "green", "blue"]
+            columns = [column[triangles].reshape(-1, column.shape[1]) for column in columns]
+            columns.append(self.colours.reshape(-1, 3))
+            triangles = np.arange(3 * len(triangles)).reshape(-1, 3)
         faces = np.empty(len(self.faces), [("count", "u1"), ("corners", "<i4", 3)])
-        faces["count"], faces["corners"] = 3, self.faces
-        lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(self.points)}",
+        faces["count"], faces["corners"] = 3, triangles
+        lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(columns[0])}",
                  *(f"property float {name}" for name in names), f"element face {len(faces)}",
                  "property list uchar int vertex_indices", "end_header", ""]
         path.write_bytes("\n".join(lines).encode() + np.hstack(columns).astype("<f4").tobytes() + faces.tobytes())
@@ -141,7 +148,7 @@ class Shapes:
         if (surface := self.surface(node)) is None:
             return
         name = {"name": node.props.id()} if node.props.id() and "__" not in node.props.id() else {}
-        self.found.append(name | (self.whole(node, surface, matrix) or self.mesh(node, matrix)) | surface)
+        self.found.append(name | (self.whole(node, surface, matrix) or self.mesh(node, matrix, surface)) | surface)
 
     def surface(self, node: Node) -> dict | None:
         """The material and the emission; none if nobody sees the shape."""
@@ -192,10 +199,10 @@ class Shapes:
         return {"type": "rectangle", "corner": numbers(matrix[:3, 3] - linear[:, 0] - linear[:, 1]),
                 "edges": [numbers(edge) for edge in edges]}
 
-    def mesh(self, node: Node, matrix: Matrix | None) -> dict:
+    def mesh(self, node: Node, matrix: Matrix | None, surface: dict) -> dict:
         """A mesh in a file of its own, which its instances share."""
         if node.index not in self.files:
-            mesh = self.evaluated(node)
+            mesh = self.evaluated(node, self.materials.colours.get(surface.get("material")))
             name = self.images.name(".ply").replace("/image", "/mesh")
             mesh.write(self.images.folder / name)
             self.files[node.index] = name, mesh.normals is not None
@@ -203,8 +210,8 @@ class Shapes:
         shape = {"type": "mesh", "file": name} | ({} if smooth else {"smooth": False})
         return shape if matrix is None else shape | {"transform": [{"matrix": numbers(matrix)}]}
 
-    def evaluated(self, node: Node) -> Mesh:
-        """The triangles in the coordinates of the scene or of the shape's group."""
+    def evaluated(self, node: Node, attribute: Attribute | None = None) -> Mesh:
+        """The triangles in the coordinates of the scene or of the shape's group, with the colours of an attribute."""
         if node.plugin in ANALYTIC:
             mesh = ANALYTIC[node.plugin]().moved(np.array(node.values["to_world"].matrix, float))
             return mesh.turned() if node.get("flip_normals", False) else mesh
@@ -213,12 +220,15 @@ class Shapes:
         normals = values["vertex_normals"] if "vertex_normals" in values and not flat else None
         uv = values.get("vertex_texcoords")
         mesh = Mesh(values["vertex_positions"], values["faces"], normals, uv)
+        if attribute:
+            mesh.colours = attribute.of(values, mesh.faces)
+            if mesh.colours is None:
+                node.lose(f"an attribute that the mesh does not have ({attribute.name})")
         if not len(mesh.faces):
             raise Failure(f"{node.place}: the mesh has no triangles")
-        if any(key.startswith("vertex_") and key[7:] not in ("positions", "normals", "texcoords") for key in values):
-            node.lose("attributes of vertices")
         if node.get("flip_normals", False):
             mesh.faces = mesh.faces[:, ::-1]
+            mesh.colours = None if mesh.colours is None else mesh.colours[:, ::-1]
         return facing(mesh)
 
 
