@@ -401,7 +401,7 @@ TEST(Guide, FeatureTellsWhetherThereIsOne) {
     EXPECT_EQ(guides(shippedScene("diffuse_box"), true), 0u);
 }
 
-TEST(Guide, FeatureTellsWhetherSkySamplesHaveOne) {
+TEST(Guide, PlanSaysWhetherSkySamplesHaveOne) {
     const auto reason = [](const Features& features, const Settings& settings) {
         for (const FeatureReason& line : explainFeatures(features, settings))
             if (line.name == "hasLightGuide") return line.reason;
