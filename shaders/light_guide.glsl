@@ -18,14 +18,16 @@ const LightGuide UNGUIDED = LightGuide(0u, NONE);
 
 // That of the region that holds a place.
 LightGuide lightGuideAt(DeviceScene scene, vec3 place) {
-    if (!hasSky || scene.lightGuide == uvec2(0u)) return UNGUIDED;
+    if (!hasSky || !hasLightGuide || scene.lightGuide == uvec2(0u)) return UNGUIDED;
     GuideNodePtr nodes = GuideNodePtr(scene.lightGuide);
     GuideNode node = nodes.at[0];
     while (node.axis < LIGHT_GUIDE_REGION) node = nodes.at[node.child + uint(place[node.axis] >= node.lower)];
     return LightGuide(uint(node.lower), node.child);
 }
 
-bool guidesLight(LightGuide guide, Light light) { return hasSky && guide.sky != NONE && light.kind == LIGHT_SKY; }
+bool guidesLight(LightGuide guide, Light light) {
+    return hasSky && hasLightGuide && guide.sky != NONE && light.kind == LIGHT_SKY;
+}
 
 // Warps uniform numbers to those of the region's density; returns the uniform density over that.
 float guideSky(DeviceScene scene, LightGuide guide, inout vec2 u) {

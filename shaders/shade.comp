@@ -206,13 +206,13 @@ bool askForCaustics(inout Vertex vertex, Path path, Material material, Surface s
 }
 
 void scatterAtSpecular(inout Vertex vertex, DeviceScene scene, Path path, Material material, Surface surface,
-                       bool asked, BounceSampler s) {
+                       bool asked, bool lit, BounceSampler s) {
     Interface at = Interface(path.media, NONE);
     if (hasMedia) at = atInterface(scene, path, surface, material);
     vec2 u = bounceSample(s, 0u);
     vec2 place = vec2(0.0);
     if (hasGlossy && isGlossy(material) && !isPassage(material)) {
-        requestGlossyShadowRay(vertex, scene, path, material, surface, at, s);
+        if (!lit) requestGlossyShadowRay(vertex, scene, path, material, surface, at, s);
         u.y = bounceSample(s, 2u).x;
         place = bounceSample(s, 3u);
     }
@@ -324,16 +324,21 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
     bool diffuse = isDiffuse(material), continues = continuesAfterLobe(path, isWideHere(material));
     float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
-    bool asked = false;
+    bool asked = false, lit = false;
     if (hasLayered && diffuse && isSpecular(material)) {
         if (!isFar(path)) asked = askForCaustics(vertex, path, material, surface, BY_DIFFUSE | BY_WIDE);
         // One of the lobes, and a weight that makes up for the choice.
         float glossy = continues ? glossyProbability(scene, material, cosine) : 0.0;
         diffuse = bounceSample(s, 2u).y >= glossy;
+        // Where the diffuse lobe sends no shadow ray, the other one has its own whichever is taken: of a lobe that is
+        // taken once in twenty times, highlights would be specks.
+        lit =
+            glossy > 0.0 && activeIntegrator() == INTEGRATOR_PHOTON && (diffuseCount(path.flags) == 0u || isFar(path));
+        if (lit) requestGlossyShadowRay(vertex, scene, path, material, surface, Interface(path.media, NONE), s);
         path.throughput /= diffuse ? 1.0 - glossy : glossy;
     }
     if (diffuse) shadeDiffuse(vertex, scene, path, surface, diffuseAlbedo(scene, material, cosine), asked, s);
-    else if (continues) scatterAtSpecular(vertex, scene, path, material, surface, asked, s);
+    else if (continues) scatterAtSpecular(vertex, scene, path, material, surface, asked, lit, s);
     return vertex;
 }
 

@@ -107,7 +107,8 @@ const uint DENSITY_KERNEL_EPANECHNIKOV = 3u;
     X(38, bool, hasEmissionTextures, true)                                                                             \
     X(40, bool, hasWide, true)                                                                                         \
     X(41, bool, hasNormalMaps, true)                                                                                   \
-    X(42, bool, hasMixed, true) /* surfaces that transmit a part */
+    X(42, bool, hasMixed, true)      /* surfaces that transmit a part */                                               \
+    X(44, bool, hasLightGuide, true) /* light samples of a sky may follow one, see light_guide.glsl */
 
 #ifdef __cplusplus
 struct Features {

@@ -2,6 +2,7 @@
 /// pictures.
 #include "judge.h"
 #include "map_args.h"
+#include "render/explain.h"
 #include "render_support.h"
 #include <algorithm>
 #include <functional>
@@ -323,8 +324,8 @@ TEST(Guide, LampsOfOtherRoomsGetFewPhotons) { expectUnbiasedAndLessNoisy(rooms()
 
 TEST(Guide, LightSamplesGoWhereLightComesFrom) { expectUnbiasedAndLessNoisy(rooms(), LAYER_DIRECT, 0.5); }
 
-/// A room with a window, and the sky and the sun outside.
-Scene roomWithWindow() {
+/// A room with a window, and the sky and the sun outside; seen from within, or not at all.
+Scene roomWithWindow(bool outside = false) {
     nlohmann::json shapes = nlohmann::json::array();
     const auto wall = [&](nlohmann::json corner, nlohmann::json u, nlohmann::json v) {
         shapes.push_back({{"type", "rectangle"}, {"corner", corner}, {"edges", {u, v}}, {"material", "grey"}});
@@ -338,7 +339,9 @@ Scene roomWithWindow() {
     wall({0, 1.7, 0}, {0, 0.3, 0}, {0, 0, 4});
     wall({0, 0.9, 0}, {0, 0.8, 0}, {0, 0, 1.5});
     wall({0, 0.9, 2.5}, {0, 0.8, 0}, {0, 0, 1.5});
-    return loadJson({{"camera", {{"origin", {3.9, 1, 3.9}}, {"target", {1, 0.8, 0}}, {"fieldOfView", 70}}},
+    nlohmann::json camera{{"origin", {3.9, 1, 3.9}}, {"target", {1, 0.8, 0}}, {"fieldOfView", 70}};
+    if (outside) camera["origin"] = {-1, 5, 0}, camera["target"] = {-2, 5, 0};
+    return loadJson({{"camera", camera},
                      {"environment", {{"radiance", 1}}},
                      {"lights", {{{"type", "sun"}, {"direction", {-1, 0.7, 0.5}}, {"irradiance", 2}}}},
                      {"materials", {{"grey", {{"type", "diffuse"}, {"albedo", 0.6}}}}},
@@ -396,6 +399,27 @@ TEST(Guide, FeatureTellsWhetherThereIsOne) {
     EXPECT_EQ(guides(ringCusp(), true), 1u);
     EXPECT_EQ(guides(ringCusp(), false), 0u);
     EXPECT_EQ(guides(shippedScene("diffuse_box"), true), 0u);
+}
+
+TEST(Guide, PlanSaysWhetherSkySamplesHaveOne) {
+    const auto reason = [](const Features& features, const Settings& settings) {
+        for (const FeatureReason& line : explainFeatures(features, settings))
+            if (line.name == "hasLightGuide") return line.reason;
+        return std::string();
+    };
+    const auto rendered = [&](const Scene& scene, bool wanted) {
+        const Settings settings = smallSettings(scene, wanted);
+        Renderer renderer(testGpu(), scene, settings);
+        renderer.renderPass(0);
+        return reason(renderer.features(), settings);
+    };
+    EXPECT_EQ(rendered(roomWithWindow(), true), "light samples go where the sky comes in, by region");
+    EXPECT_EQ(rendered(roomWithWindow(true), true),
+              "most of the sky reaches what the eye sees, or it is not known yet");
+    EXPECT_EQ(rendered(roomWithWindow(), false), "guides were not asked for");
+    const Scene box = shippedScene("diffuse_box");
+    EXPECT_EQ(reason(sceneFeatures(box, smallSettings(box, true)), smallSettings(box, true)),
+              "the scene has no light from a sky");
 }
 
 } // namespace

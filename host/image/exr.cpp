@@ -40,18 +40,25 @@ struct Colors {
     const char* names[3];
 };
 
+/// Colours of any part come before greys: these may be a mask or a depth. Y beside chroma is no grey.
 Colors colorsOf(const Imf::MultiPartInputFile& file) {
-    for (int part = 0; part < file.parts(); part++) {
-        const Imf::Header& header = file.header(part);
-        if (header.hasType() && Imf::isDeepData(header.type())) continue;
-        const auto has = [&](const char* name) {
-            const Imf::Channel* channel = header.channels().findChannel(name);
-            return channel && channel->xSampling == 1 && channel->ySampling == 1;
-        };
-        if (has("R") && has("G") && has("B")) return {part, {"R", "G", "B"}};
-        if (has("Y")) return {part, {"Y", "Y", "Y"}};
-    }
-    throw InputError("no part of it has channels R, G and B, or Y, with a value per texel");
+    bool hasChroma = false;
+    for (const Colors& wanted : {Colors{0, {"R", "G", "B"}}, Colors{0, {"Y", "Y", "Y"}}})
+        for (int part = 0; part < file.parts(); part++) {
+            const Imf::Header& header = file.header(part);
+            if (header.hasType() && Imf::isDeepData(header.type())) continue;
+            const auto find = [&](const char* name) { return header.channels().findChannel(name); };
+            const auto has = [&](const char* name) {
+                const Imf::Channel* channel = find(name);
+                return channel && channel->xSampling == 1 && channel->ySampling == 1;
+            };
+            const bool chroma = find("RY") || find("BY");
+            hasChroma |= chroma;
+            if (!chroma && std::ranges::all_of(wanted.names, has))
+                return {part, {wanted.names[0], wanted.names[1], wanted.names[2]}};
+        }
+    throw InputError(hasChroma ? "it has luminance and chroma, Y, RY and BY; allowed are R, G and B, or Y alone"
+                               : "no part of it has channels R, G and B, or Y, with a value per texel");
 }
 
 Raster read(std::string_view bytes) {

@@ -23,7 +23,8 @@ void requireTexels(std::uint64_t width, std::uint64_t height, std::uint64_t byte
 /// How many texels have a component that is negative or not finite, and the first of them, in words; empty if none has.
 std::string badTexels(const Raster& image);
 
-/// OpenEXR: R, G and B of the first flat part, or Y for all three. Throws InputError, without a file's name.
+/// OpenEXR: R, G and B of the first flat part that has them, else Y of the first for all three. Throws InputError,
+/// without a file's name.
 Raster decodeExr(std::string_view bytes);
 
 /// Radiance RGBE, with either run-length code or none. Throws InputError, without a file's name.

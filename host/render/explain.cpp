@@ -42,6 +42,16 @@ std::string fieldAbsent(const Features& features, const Settings& settings) {
     return settings.nearest ? "the nearest photons decide the radius" : "one caustic radius was given";
 }
 
+/// Why light samples follow no guide to a sky; empty if they do.
+std::string lightGuideAbsent(const Features& features, const Settings& settings) {
+    if (features.hasLightGuide) return "";
+    if (!(features.lightKinds >> LIGHT_SKY & 1)) return "the scene has no light from a sky";
+    if (settings.integrator != INTEGRATOR_PHOTON) return "the integrator does not use it";
+    if (!settings.guides) return "guides were not asked for";
+    if (!asksLights(features, settings)) return "nobody asked for a layer that needs it";
+    return "most of the sky reaches what the eye sees, or it is not known yet";
+}
+
 } // namespace
 
 std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& settings) {
@@ -94,6 +104,7 @@ std::vector<FeatureReason> explainFeatures(const Features& f, const Settings& se
             : f.hasGlobalMap || f.hasCausticMap ? "most photons are useful, or none, or it is not known yet"
                                                 : "there is no photon map",
             "photons are sent where the eye looks");
+    because("hasLightGuide", lightGuideAbsent(f, settings), "light samples go where the sky comes in, by region");
     because("hasGlobalMap", mapAbsent(f.hasGlobalMap, false, f, settings), "the integrator gathers from it");
     because("hasCausticMap", mapAbsent(f.hasCausticMap, true, f, settings), "the scene has specular surfaces");
     because("hasRadiusField", fieldAbsent(f, settings), "radii of caustics are measured by region");

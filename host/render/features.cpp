@@ -123,6 +123,8 @@ Features sceneFeatures(const Scene& scene, const Settings& settings) {
             farLights += light.kind == LIGHT_SPHERE && light.twoSided != 0 ? 2 : 1; // its inside is behind its outside
     features.hasFarLights = std::min(farLights, 2u);
     chooseLayers(features, settings);
+    features.hasLightGuide = (features.lightKinds >> LIGHT_SKY & 1) != 0 && settings.guides &&
+                             settings.integrator == INTEGRATOR_PHOTON && asksLights(features, settings);
     features.hasNearest = settings.nearest > 0;
     features.hasRadiusField = features.hasCausticMap && !settings.causticRadius && settings.nearest == 0;
     features.densityKernel = settings.kernel;

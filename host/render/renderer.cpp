@@ -25,6 +25,7 @@ Renderer::Renderer(Gpu& device, const Scene& input, const Settings& set, const F
 Features Renderer::features() const {
     Features has = sceneHas;
     has.hasGuide |= (global && global->isGuided()) || (caustic && caustic->isGuided());
+    has.hasLightGuide &= scene.guidesLights();
     return has;
 }
 

@@ -44,7 +44,7 @@ public:
     uint mediaOverflows() const { return scene.mediaOverflows(); }
     /// Of all passes; what is learned before the first one is not in it.
     const Work& work() const { return passWork; }
-    /// What the kernels are made for; hasGuide once a pass was rendered.
+    /// What the kernels are made for; guides once a pass was rendered.
     Features features() const;
     const std::optional<PhotonMapStage>& globalMap() const { return global; }
     const std::optional<PhotonMapStage>& causticMap() const { return caustic; }

@@ -22,6 +22,7 @@ public:
     void chooseLights(Gpu& gpu, std::span<const float> cdf);
     /// Light samples follow a guide, see light_guide.glsl; none: the same everywhere.
     void guideLights(Gpu& gpu, std::span<const GuideNode> nodes);
+    bool guidesLights() const { return lightGuide.size() > 0; }
 
     /// Throws std::logic_error if kernels met anything that the features are without; see Features::checksFeatures.
     void requireNothingMissing() const;

@@ -7,6 +7,7 @@
 #include "scene/text.h"
 #include "scene/textures.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -98,12 +99,10 @@ Raster linearColors(const Picture& picture) {
     requireTexels(picture.width, picture.height, sizeof(vec3), maxTexels);
     Raster image{picture.width, picture.height, {}};
     for (const vec4& texel : picture.floats) image.texels.emplace_back(texel);
-    for (const uint texel : picture.bytes) {
-        const auto channel = [&](uint shift) {
-            return static_cast<float>(linearOfSrgb((texel >> shift & 255) / 255.0));
-        };
-        image.texels.push_back({channel(0), channel(8), channel(16)});
-    }
+    std::array<float, 256> linear;
+    for (uint byte = 0; byte < linear.size(); byte++) linear[byte] = static_cast<float>(linearOfSrgb(byte / 255.0));
+    for (const uint texel : picture.bytes)
+        image.texels.emplace_back(linear[texel & 255], linear[texel >> 8 & 255], linear[texel >> 16 & 255]);
     return image;
 }
 
