@@ -16,7 +16,8 @@ from farming.parts import digest
 from studies.reference import reference_file, scene_digest
 from studies.vkpm import LIGHT, ROOT, Failure, Image, Vkpm, read_image, relative_square
 
-ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel", "gather-rays", "pixel-samples"}
+ABOUT_PHOTONS = {"photons", "caustic-photons", "radius", "caustic-radius", "nearest", "alpha", "kernel", "gather-rays",
+                 "pixel-samples"}
 WITHOUT_PHOTONS = {"path", "direct"}
 
 
