@@ -64,7 +64,7 @@ std::vector<Estimate> layersOf(const Scene& scene, uint integrator, uint passes)
     Settings settings = scene.settings;
     settings.integrator = integrator;
     std::vector<std::vector<double>> values(LAYER_COUNT);
-    for (settings.seed = 1; settings.seed <= 4; settings.seed++) {
+    for (settings.seed = 1; settings.seed <= 8; settings.seed++) {
         const Rendered image = renderPasses(scene, settings, passes);
         for (uint layer = 0; layer < LAYER_COUNT; layer++) values[layer].push_back(layerMean(image.pixels, layer));
     }
@@ -81,8 +81,8 @@ TEST(Emission, WithinGlassIsACaustic) {
         EXPECT_EQ(scene.lightMedia[2 * i], 0u);
         EXPECT_EQ(scene.lightMedia[2 * i + 1], scene.materials[scene.primitives.back().material].medium);
     }
-    const Estimate photon = layersOf(scene, INTEGRATOR_PHOTON, 8)[LAYER_CAUSTIC],
-                   path = layersOf(scene, INTEGRATOR_PATH, 64)[LAYER_CAUSTIC];
+    const Estimate photon = layersOf(scene, INTEGRATOR_PHOTON, 4)[LAYER_CAUSTIC],
+                   path = layersOf(scene, INTEGRATOR_PATH, 32)[LAYER_CAUSTIC];
     const double allowed = 4 * std::hypot(photon.error, path.error);
     EXPECT_NEAR(photon.mean, path.mean, allowed + 0.01 * path.mean);
     EXPECT_LT(allowed, 0.1 * path.mean) << "the noise is too great to see an error";
@@ -114,10 +114,12 @@ TEST(Emission, OfWhatIsNotOpaque) {
                             {"emission", 1}}}}});
     };
     const auto expectAlike = [](const Scene& a, const Scene& b, double factor) {
-        const std::vector<Estimate> one = layersOf(a, INTEGRATOR_PHOTON, 6), two = layersOf(b, INTEGRATOR_PHOTON, 6);
+        const std::vector<Estimate> one = layersOf(a, INTEGRATOR_PHOTON, 4), two = layersOf(b, INTEGRATOR_PHOTON, 4);
         for (const uint layer : {LAYER_EMISSION, LAYER_DIRECT, LAYER_INDIRECT}) {
             const double expected = factor * two[layer].mean,
                          allowed = 4 * std::hypot(one[layer].error, factor * two[layer].error);
+            std::printf("%u %.6f +- %.6f, %.6f +- %.6f\n", layer, one[layer].mean, one[layer].error, expected,
+                        factor * two[layer].error);
             EXPECT_NEAR(one[layer].mean, expected, allowed) << layer;
             EXPECT_LT(allowed, 0.15 * expected) << layer << ": the noise is too great to see an error";
         }

@@ -327,7 +327,7 @@ TEST(Features, RandomScenesRenderTheSameBits) {
     std::shuffle(scenes.begin() + std::ptrdiff_t(cover), scenes.end(), std::mt19937(drawSeed()));
     if (!isNightly()) scenes.resize(std::min(cover + 2, scenes.size()));
     uint lit = 0, index = 0;
-    const uint commits = isThorough() ? 16 : 24; // until all pairs have been
+    const uint commits = isThorough() ? 16 : 40; // until all pairs have been
     std::erase_if(scenes, [&](const RandomScene&) { return !isDrawn(index++, commits); });
     for (const RandomScene& scene : scenes)
         lit += expectSameBits(loadJson(scene.text), scene.settings,
