@@ -52,10 +52,10 @@ bool sendRayBeyond(uint slot, Split from, Sampler s) {
     DeviceScene scene = args.scene.at[0];
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
+    float arrival = diffuseArrivalAt(scene, from.from, from.origin, dot(direction, from.shading));
     if (!hasLayer(layer) || !departs(direction, from.normal, from.bulge) ||
         goesThrough(direction, from.normal, from.bulge))
         return false;
-    float arrival = diffuseArrivalAt(scene, from.from, from.origin, dot(direction, from.shading));
     float pdf = unpackPdf(packPdf(cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI));
     vec3 radiance = args.share * arrival * from.throughput *
                     radianceBeyond(scene, lightGuideAt(scene, from.origin), direction, pdf);
