@@ -72,7 +72,7 @@ void expectTexels(const std::string& bytes, vec3 first) {
 
 TEST(Image, ExrMayHaveOtherNumbersAndWindows) {
     for (const Imf::PixelType type : {Imf::FLOAT, Imf::HALF, Imf::UINT})
-        for (const Imath::V2i corner : {Imath::V2i{0, 0}, Imath::V2i{7, -5}})
+        for (const Imath::V2i& corner : {Imath::V2i{0, 0}, Imath::V2i{7, -5}})
             expectTexels(exrOf({{{"A", 50, type}, {"B", 30, type}, {"G", 20, type}, {"R", 10, type}}}, corner),
                          {10, 20, 30});
     expectTexels(exrOf({{{"Y", 3}, {"Z", 9}}}), vec3(3));
