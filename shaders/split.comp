@@ -35,11 +35,17 @@ bool sendLightSample(uint slot, Split from, Sampler s) {
     return maxComponent(ray.radiance) > 0.0;
 }
 
+// A direction by the cosine law, the part of what arrives there that counts, and whether there is a ray for it.
+bool departsByCosineLaw(Split from, Sampler s, out vec3 direction, out float arrival) {
+    direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
+    arrival = diffuseArrivalAt(args.scene.at[0], from.from, from.origin, dot(direction, from.shading));
+    return departs(direction, from.normal, from.bulge);
+}
+
 bool sendGatherRay(uint slot, Split from, Sampler s) {
-    if (!gathers(from)) return false;
-    vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
-    float arrival = diffuseArrivalAt(args.scene.at[0], from.from, from.origin, dot(direction, from.shading));
-    if (!departs(direction, from.normal, from.bulge)) return false;
+    vec3 direction;
+    float arrival;
+    if (!gathers(from) || !departsByCosineLaw(from, s, direction, arrival)) return false;
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
     if (hasEndless && (flags & PATH_THROUGH) == 0u) // else light samples have all of the sky
         flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
@@ -51,9 +57,9 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
 bool sendRayBeyond(uint slot, Split from, Sampler s) {
     DeviceScene scene = args.scene.at[0];
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
-    vec3 direction = toWorld(cosineHemisphere(sample2(s, 0u)), from.shading);
-    float arrival = diffuseArrivalAt(scene, from.from, from.origin, dot(direction, from.shading));
-    if (!hasLayer(layer) || !departs(direction, from.normal, from.bulge) ||
+    vec3 direction;
+    float arrival;
+    if (!hasLayer(layer) || !departsByCosineLaw(from, s, direction, arrival) ||
         goesThrough(direction, from.normal, from.bulge))
         return false;
     float pdf = unpackPdf(packPdf(cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI));
