@@ -5,6 +5,7 @@
 #include "camera.glsl"
 #include "common.glsl"
 #include "labels.glsl"
+#include "lanes.glsl"
 #include "lens.glsl"
 #include "random.glsl"
 #include "shared_camera.h"
@@ -17,27 +18,19 @@ ARGS(EyeArgs)
 void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
-    uint pixel = args.firstPixel + slot;
-    vec2 within =
-        args.centered != 0u ? vec2(0.5) : sample2(pixelSampler(pixel, args.index, args.seed, SAMPLES_EYE), 0u);
+    uint pixel = args.of.firstPixel + pixelOfSlot(args.of, slot);
+    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(eyeSampler(args.of, slot), 0u);
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
     uint media = hasMedia ? args.scene.at[0].cameraMedia : 0u;
     vec3 origin = camera.origin, direction = cameraDirection(camera, film);
     if (hasLens && camera.aperture > 0.0) {
-        Sampler s = pixelSampler(pixel, args.index, args.seed, SAMPLES_EYE);
-        vec3 offset = lensPoint(camera, sample2(s, LENS_DIMENSION));
+        vec3 offset = lensPoint(camera, sample2(eyeSampler(args.of, slot), LENS_DIMENSION));
         origin += offset;
         direction = lensDirection(camera, offset, film);
     }
-    args.paths.at[slot] = Path(origin, direction, vec3(args.share), 0.0, NONE, 0u, media);
+    args.paths.at[slot] = Path(origin, direction, vec3(shareOfEach(args.of)), 0.0, NONE, 0u, media);
     args.list.at[slot] = slot;
     if (args.splitting != 0u) args.splits.at[slot].flags = NONE;
-
-    if (args.isFirst == 0u) {
-        forgetEvents(args.samples, args.stride, slot);
-        return;
-    }
-    [[dont_unroll]] for (uint column = 0u; column < CAMERA_COLUMNS; column++)
-        args.samples.at[column * args.stride + slot] = 0.0;
+    forgetEvents(args.samples, args.stride, slot);
 }

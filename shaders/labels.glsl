@@ -31,6 +31,18 @@ void forgetEvents(floatPtr samples, uint stride, uint slot) {
     if (hasLabels && hasAlbedo) samples.at[COLUMN_ALBEDO * stride + slot] = 0.0;
 }
 
+// Whether a column has labels, in place of what is added up.
+bool isLabel(uint column) { return hasLabels && hasAlbedo && column >= COLUMN_ALBEDO && column < COLUMN_ALBEDO + 3u; }
+
+// The brighter light of two slots goes to the first one.
+void joinLabels(floatPtr samples, uint stride, uint slot, uint other) {
+    if (!hasLabels || !hasAlbedo) return;
+    uint at = (COLUMN_ALBEDO + 1u) * stride;
+    if (!(samples.at[at + other] > samples.at[at + slot])) return;
+    samples.at[at + slot] = samples.at[at + other];
+    samples.at[at + stride + slot] = samples.at[at + stride + other];
+}
+
 // Light that is added to a column of a layer.
 void labelLight(floatPtr samples, uint stride, uint slot, uint column, vec3 light, uint found) {
     if (!hasLabels || !hasAlbedo || column >= COLUMN_ALBEDO) return;

@@ -13,6 +13,7 @@
 #include "film_layout.glsl"
 #include "glint.glsl"
 #include "labels.glsl"
+#include "lanes.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "media.glsl"
@@ -31,7 +32,9 @@ ARGS(ShadeArgs)
 
 uint activeIntegrator() { return integrator == ANY ? args.integrator : integrator; }
 
-bool showsCaustics() { return hasCausticMap && args.caustics != 0u; }
+bool showsCaustics() { return hasCausticMap && (args.mode & SHADE_CAUSTICS) != 0u; }
+
+bool isGatherRay() { return (args.mode & SHADE_GATHER_RAYS) != 0u; }
 
 // The point of a path's sequence, and the bounce that it is at.
 struct BounceSampler {
@@ -47,8 +50,8 @@ uint layerOf(Path path, uint layer) { return (path.flags & PATH_EYE_SPECULAR) !=
 
 // Where light of a layer that a path finds is added.
 uint columnOf(Path path, uint layer) {
-    bool gathering = activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u &&
-                     (!hasWide || args.sequence == SAMPLES_GATHER);
+    bool gathering =
+        activeIntegrator() == INTEGRATOR_PHOTON && diffuseCount(path.flags) > 0u && (!hasWide || isGatherRay());
     return gathering ? COLUMN_GATHERED : layerColumn(layer);
 }
 
@@ -61,6 +64,7 @@ struct Vertex {
     uint emissionColumn; // to which `emission` is added, or NONE
     vec3 emission;
     uint event;          // of the path that goes on, see labels.glsl
+    float asking;        // weight of what is asked of the caustic map; 0: another path of the pixel asks
     Path path;           // of QUEUE_CONTINUE
     ShadowRay shadowRay; // of QUEUE_SHADOW
     Query query;         // of QUEUE_CAUSTIC or QUEUE_GLOBAL
@@ -108,11 +112,11 @@ void addBeyond(inout Vertex vertex, DeviceScene scene, Path path, uint slot) {
     if (hasSky && direct && scene.sky != uvec2(0u) && SkyPtr(scene.sky).at[0].visible == 0u) return;
     // A gather ray carries its share of direct light: splits have the rest, by light samples.
     uint layer = layerOf(path, LAYER_DIRECT);
-    bool gathers = !hasWide || args.sequence == SAMPLES_GATHER;
+    bool gathers = !hasWide || isGatherRay();
     if (gathers && diffuseCount(path.flags) == 1u && !wasNarrow(path.flags) && pdfOf(path.flags) > 0.0) {
         if (!hasLayer(layer)) return;
         vertex.emissionColumn = layerColumn(layer);
-        path.throughput *= args.splits.at[slot].throughput;
+        path.throughput *= args.splits.at[pixelOfSlot(args.of, slot)].throughput;
         vertex.emission = path.throughput *
                           radianceBeyond(scene, lightGuideAt(scene, path.origin), path.direction, pdfOf(path.flags));
     } else if (findsLight(vertex, path))
@@ -131,14 +135,20 @@ void requestShadowRay(inout Vertex vertex, DeviceScene scene, Path path, Surface
     if (maxComponent(vertex.shadowRay.radiance) > 0.0) vertex.queues |= 1u << QUEUE_SHADOW;
 }
 
-// Asks a map, unless there is no such map or nobody asked for the layer. Of the paths of a pixel one asks for caustics.
+// Of the paths of a pixel the first asks the caustic map, for all of them.
+float weightOfCaustics(uint slot) {
+    if (isGatherRay()) return 1.0;
+    return pathOfSlot(args.of, slot) == 0u ? float(args.of.each) : 0.0;
+}
+
+// Asks a map, unless there is no such map or nobody asked for the layer.
 void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface, vec3 normal, vec3 weight, uint layer,
                     uint lobes) {
     layer = layerOf(path, layer);
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     if (queue == QUEUE_CAUSTIC) {
-        if (args.asking == 0.0) return;
-        weight *= args.asking;
+        if (vertex.asking == 0.0) return;
+        weight *= vertex.asking;
     }
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
     vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, lobes,
@@ -286,6 +296,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     vertex.queues = 0u;
     vertex.emissionColumn = NONE;
     vertex.event = EVENT_REFLECTED;
+    vertex.asking = weightOfCaustics(slot);
     vertex.split.flags = NONE;
     if (!hasEndless && hit.primitive == NONE) return vertex;
     DeviceScene scene = args.scene.at[0];
@@ -302,13 +313,14 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     path.distanceSinceDiffuse += hit.t;
     if (hasMedia) path.throughput *= transmittance(scene, path.media, hit.t);
     if (bounce == 0u) {
+        float share = shareOfEach(args.of);
         if (hasAlbedo && !hasLabels)
-            addToColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, args.share * material.color);
-        if (hasNormal) addToColumns(args.samples, args.stride, COLUMN_NORMAL, slot, args.share * surface.shading);
+            addToColumns(args.samples, args.stride, COLUMN_ALBEDO, slot, share * material.color);
+        if (hasNormal) addToColumns(args.samples, args.stride, COLUMN_NORMAL, slot, share * surface.shading);
         if (hasDepth) {
             args.samples.at[COLUMN_DEPTH * args.stride + slot] +=
-                args.share * scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
-            args.samples.at[COLUMN_COVERED * args.stride + slot] += args.share;
+                share * scene.unit * (hit.t * dot(path.direction, scene.camera.forward));
+            args.samples.at[COLUMN_COVERED * args.stride + slot] += share;
         }
     }
     if (hasSmoothDiffuse && (path.flags & PATH_THROUGH) != 0u) {
@@ -321,7 +333,7 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP) addEmission(vertex, scene, path, surface);
     if (hasWide && activeIntegrator() == INTEGRATOR_DIRECT && diffuseCount(path.flags) > 0u) return vertex;
 
-    BounceSampler s = BounceSampler(pixelSampler(args.firstPixel + slot, args.index, args.seed, args.sequence), bounce);
+    BounceSampler s = BounceSampler(isGatherRay() ? gatherSampler(args.of, slot) : eyeSampler(args.of, slot), bounce);
     bool diffuse = isDiffuse(material), continues = continuesAfterLobe(path, isWideHere(material));
     float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
     bool asked = false, lit = false;
@@ -353,7 +365,7 @@ void main() {
         addToColumns(args.samples, args.stride, vertex.emissionColumn, slot, vertex.emission);
         labelLight(args.samples, args.stride, slot, vertex.emissionColumn, vertex.emission, FOUND_LIGHT);
     }
-    if (args.sequence == SAMPLES_EYE && (vertex.queues & 1u << QUEUE_CONTINUE) != 0u)
+    if (!isGatherRay() && (vertex.queues & 1u << QUEUE_CONTINUE) != 0u)
         addEvent(args.samples, args.stride, slot, vertex.event);
     if ((vertex.queues & 1u << QUEUE_CONTINUE) != 0u) args.paths.at[slot] = vertex.path;
     if ((vertex.queues & 1u << QUEUE_SHADOW) != 0u) args.shadowRays.at[slot] = vertex.shadowRay;

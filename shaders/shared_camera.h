@@ -49,23 +49,35 @@ struct Split {
 };
 BUFFER(Split)
 
+const uint MAX_LANES = 8u;
+
+/// Paths of the pixels of a batch that are under way at the same time, those of a pixel in lanes of their own: slot
+/// lane * pixels + i is the i-th pixel's.
+struct LanePaths {
+    uint firstPixel;
+    uint pixels;
+    uint pass;
+    uint first; // path of the pixel that the first lane has; of gather rays, among those of the pixel and pass
+    uint each;  // paths, or gather rays, of a pixel in a pass
+    uint seed;
+};
+
 struct EyeArgs {
     PTR(DeviceScene) scene;
     PTR(Path) paths;
-    PTR(float) samples; // [column][stride]; the first path of a pixel clears them
+    PTR(float) samples; // [column][stride]
     PTR(uint) list;
     PTR(Split) splits; // become none
+    LanePaths of;
     uint stride;
+    uint count; // of slots
     uvec2 size;
-    uint firstPixel;
-    uint count;
-    uint index; // of the sample in its sequence
-    uint seed;
     uint centered;  // 1: through the middle of the pixel
     uint splitting; // 1: there are splits
-    uint isFirst;   // 0: the pixel has samples of other paths
-    float share;    // of this path among those of the pixel
 };
+
+const uint SHADE_GATHER_RAYS = 1u; // in place of paths from the eye
+const uint SHADE_CAUSTICS = 2u;    // ask the caustic map; photon-map integrator: it, and not the global one
 
 struct ShadeArgs {
     PTR(DeviceScene) scene;
@@ -78,15 +90,10 @@ struct ShadeArgs {
     PTR(Queue) queue;
     PTR(uint) list;
     PTR(uint) flags;
+    LanePaths of;
     uint stride;
-    uint firstPixel;
-    uint sequence; // SAMPLES_...
-    uint index;    // of the sample in its sequence
-    uint seed;
+    uint mode; // SHADE_...
     uint bounce;
-    uint caustics;      // ask the caustic map; photon-map integrator: it, and not the global one
-    float asking;       // weight of what is asked of the caustic map; 0: another path of the pixel asks
-    float share;        // of this path among those of the pixel
     float nearDistance; // a gather ray shorter than this goes on
     float pixelAngle;   // width of a pixel over its distance
     uint integrator;    // INTEGRATOR_...
@@ -105,12 +112,10 @@ struct SplitArgs {
     PTR(ShadowRay) shadowRays;
     PTR(uint) list;
     PTR(uint) flags;
-    uint firstPixel;
-    uint count;
-    uint index; // of the sample in its sequence
-    uint seed;
-    float share; // of a gather ray and of a light sample
-    uint sends;  // SPLIT_...
+    LanePaths of;
+    uint firstSlot; // lanes before have nothing to send
+    uint count;     // of slots
+    uint sends;     // SPLIT_...
 };
 
 struct ShadowArgs {
@@ -120,6 +125,15 @@ struct ShadowArgs {
     PTR(Queue) queue;
     PTR(uint) list;
     uint stride;
+};
+
+struct SumLanesArgs {
+    PTR(float) samples; // [column][stride]; the first lane gets the sum of all
+    uint stride;
+    uint pixels;
+    uint lanes;
+    uint firstColumn;
+    uint endColumn;
 };
 
 const uint SHARING_BAND = 32u; // rows of pixels that share what their gather rays bring

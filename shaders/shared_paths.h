@@ -8,8 +8,9 @@
 SHARED_BEGIN
 
 // Sequences of sample points of a pixel.
-const uint SAMPLES_EYE = 0u;    // a point for each pass: the place in the pixel and all that follows
-const uint SAMPLES_GATHER = 1u; // one for each gather ray of each pass
+const uint SAMPLES_EYE = 0u;         // a point for each pass: the place in the pixel and all that follows
+const uint SAMPLES_GATHER = 1u;      // one for each gather ray of each pass
+const uint FURTHER_PATHS = 1u << 28; // of a pixel: their indices begin there, beyond those of the most passes
 
 /// What a dispatch reads on the device: how many groups, and which part of a list they work on.
 struct Queue {

@@ -9,6 +9,7 @@
 #include "direct.glsl"
 #include "directions.glsl"
 #include "film_layout.glsl"
+#include "lanes.glsl"
 #include "media.glsl"
 #include "random.glsl"
 #include "sampling.glsl"
@@ -23,12 +24,15 @@ bool gathers(Split from) {
     return hasGlobalMap && hasLayer((from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_INDIRECT);
 }
 
+// Of a light sample, and of the gather ray that is sent with it.
+float share() { return args.sends == SPLIT_GATHERS ? shareOfEach(args.of) : 1.0; }
+
 bool sendLightSample(uint slot, Split from, Sampler s) {
     uint layer = (from.flags & PATH_EYE_SPECULAR) != 0u ? LAYER_SPECULAR : LAYER_DIRECT;
     if (!hasLayer(layer)) return false;
     ShadowRay ray =
         sampleDirect(args.scene.at[0], from.origin, from.from, from.normal, from.shading, from.bulge,
-                     args.share * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
+                     share() * from.throughput, layerColumn(layer), sample2(s, 1u), sample2(s, 2u),
                      lightGuideAt(args.scene.at[0], from.origin), args.sends != SPLIT_GATHERS || gathers(from));
     if (hasMedia) ray.radiance *= shadowTransmittance(args.scene.at[0], from.media, ray);
     args.shadowRays.at[slot] = ray;
@@ -49,7 +53,7 @@ bool sendGatherRay(uint slot, Split from, Sampler s) {
     uint flags = goesThrough(direction, from.normal, from.bulge) ? from.flags | PATH_THROUGH : from.flags;
     if (hasEndless && (flags & PATH_THROUGH) == 0u) // else light samples have all of the sky
         flags = withPdf(flags, cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI);
-    args.paths.at[slot] = Path(from.origin, direction, vec3(args.share * arrival), 0.0, from.from, flags, from.media);
+    args.paths.at[slot] = Path(from.origin, direction, vec3(share() * arrival), 0.0, from.from, flags, from.media);
     return true;
 }
 
@@ -63,8 +67,7 @@ bool sendRayBeyond(uint slot, Split from, Sampler s) {
         goesThrough(direction, from.normal, from.bulge))
         return false;
     float pdf = unpackPdf(packPdf(cosineOfArrival(direction, from.normal, from.shading, from.bulge) / PI));
-    vec3 radiance = args.share * arrival * from.throughput *
-                    radianceBeyond(scene, lightGuideAt(scene, from.origin), direction, pdf);
+    vec3 radiance = arrival * from.throughput * radianceBeyond(scene, lightGuideAt(scene, from.origin), direction, pdf);
     ShadowRay ray = ShadowRay(from.origin, from.from, direction, radiance, layerColumn(layer), SHADOW_ENDLESS);
     if (hasMedia) ray.radiance *= shadowTransmittance(scene, from.media, ray);
     args.shadowRays.at[slot] = ray;
@@ -72,17 +75,19 @@ bool sendRayBeyond(uint slot, Split from, Sampler s) {
 }
 
 uint send(uint slot) {
-    Split from = args.splits.at[slot];
+    bool ofFirst = args.sends == SPLIT_GATHERS; // path of the pixel
+    Split from = args.splits.at[ofFirst ? pixelOfSlot(args.of, slot) : slot];
     if (from.flags == NONE) return 0u;
-    Sampler s = pixelSampler(args.firstPixel + slot, args.index, args.seed, SAMPLES_GATHER);
+    Sampler s = ofFirst ? gatherSampler(args.of, slot) : splitSampler(args.of, slot);
     if (hasEndless && args.sends == SPLIT_BEYOND) return uint(sendRayBeyond(slot, from, s)) << QUEUE_SHADOW;
     if (args.sends == SPLIT_LIGHT) return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW;
     return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW | uint(sendGatherRay(slot, from, s)) << QUEUE_CONTINUE;
 }
 
 void main() {
-    uint slot = threadIndex();
-    if (slot >= args.count) return;
-    args.list.at[slot] = slot;
-    putFlags(args.flags, slot, EYE_QUEUES, send(slot));
+    uint place = threadIndex();
+    if (place >= args.count) return;
+    uint slot = args.firstSlot + place;
+    args.list.at[place] = slot;
+    putFlags(args.flags, place, EYE_QUEUES, send(slot));
 }

@@ -2,6 +2,7 @@
 #include "output/exr.h"
 #include "program.h"
 #include "render_support.h"
+#include "shared_camera.h"
 #include "shared_layers.h"
 #include <cstring>
 #include <fmt/format.h>
@@ -59,10 +60,11 @@ TEST_F(Determinism, GuidesAreTheSameOnAnyLanes) {
         expectSameBits(renderWith("photon", environment, "pool"), plain, environment);
 }
 
-std::vector<Pixel> renderInBatches(const Scene& scene, uint integrator, BatchSizes batches) {
+std::vector<Pixel> renderInBatches(const Scene& scene, uint integrator, BatchSizes batches, uint pixelSamples) {
     Settings settings = scene.settings;
     settings.integrator = integrator;
-    settings.size = {40, 32};
+    settings.size = {40, 40}; // more than a band of rows that share
+    settings.pixelSamples = pixelSamples;
     settings.photons = settings.causticPhotons = 3000;
     Renderer renderer(testGpu(), scene, settings, batches);
     for (const uint pass : {0u, 1u}) renderer.renderPass(pass);
@@ -73,13 +75,14 @@ TEST(Batches, SizesDoNotMatter) {
     for (const char* name : {"box", "ring", "pool"})
         for (const uint integrator : {INTEGRATOR_PHOTON, INTEGRATOR_LIGHT}) {
             const Scene scene = shippedScene(name);
-            const std::vector<Pixel> whole = renderInBatches(scene, integrator, {});
+            const uint paths = name == std::string("ring") ? MAX_LANES + 3 : scene.settings.pixelSamples;
+            const std::vector<Pixel> whole = renderInBatches(scene, integrator, {}, paths);
             if (integrator == INTEGRATOR_PHOTON) {
                 EXPECT_GT(layerMean(whole, LAYER_CAUSTIC) + layerMean(whole, LAYER_SPECULAR), 0);
             }
             for (const BatchSizes batches :
                  {BatchSizes{1u << 16, 100, 2}, {1000, 1u << 16}, {64, 1280, 1}, {2999, 1279}, {777, 333}}) {
-                const std::vector<Pixel> parts = renderInBatches(scene, integrator, batches);
+                const std::vector<Pixel> parts = renderInBatches(scene, integrator, batches, paths);
                 EXPECT_EQ(std::memcmp(parts.data(), whole.data(), whole.size() * sizeof(Pixel)), 0)
                     << name << ", integrator " << integrator << ", batches of " << batches.photons << " photons and "
                     << batches.camera << " paths, at first " << batches.rounds << " rounds";

@@ -20,16 +20,13 @@ const uint roundsAtOnce = 4; // recorded before the host looks whether any path 
 // to nothing, too few a batch.
 const uint spareRounds = 8;
 
-const uint furtherPaths = 1u << 28; // of a pixel: their indices begin there, beyond those of the most passes
-
 RayCounts CameraBatch::rays() const {
     RayCounts rays;
-    for (const auto* sequences : {&eye, &splits})
-        for (const auto& sequence : *sequences) {
-            rays.paths += sequence[QUEUE_CONTINUE].base;
-            rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
-        }
-    rays.paths -= std::uint64_t(splits.size()) * count; // those that were looked at for gather rays
+    for (const auto& sequence : sequences) {
+        rays.paths += sequence[QUEUE_CONTINUE].base;
+        rays.shadow += std::uint64_t(sequence[QUEUE_SHADOW].base) + sequence[QUEUE_SHADOW].count;
+    }
+    rays.paths -= lookedAt;
     return rays;
 }
 
@@ -42,10 +39,17 @@ static bool sharesGathers(const Features& features, const Settings& settings) {
     return settings.integrator == INTEGRATOR_PHOTON && features.hasGlobalMap && asksLights(features, settings);
 }
 
+/// Paths of a pixel that are traced together, whose samples are added in this order: it depends on the settings alone.
+/// Bands of a wide picture have to fit.
+static uint lanesOf(uvec2 picture, uint paths) {
+    const uint most = COMPACTION_BLOCK * MAX_COMPACTION_BLOCKS / (2 * SHARING_BAND * picture.x);
+    return std::clamp(most, 1u, std::min(paths, MAX_LANES));
+}
+
 /// Pixels of a batch: whole bands, at least one, if pixels of a band share.
 static uint batchOf(uvec2 picture, uint wanted, bool shares) {
     const uint band = SHARING_BAND * picture.x;
-    return shares ? std::max(wanted / band, 1u) * band : wanted;
+    return shares ? std::max(wanted / band, 1u) * band : std::max(wanted, 1u);
 }
 
 /// Rows of the first band that lie above the picture: where bands meet differs from pass to pass.
@@ -54,11 +58,14 @@ static uint bandShift(uint pass) { return pass * 13 % SHARING_BAND; } // 13: eac
 CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Features& has, const Settings& set,
                          uint batchSize, uint firstRounds)
     : gpu(device), scene(uploaded), settings(set), features(has), pixelSamples(pixelSamplesOf(set)),
-      shares(sharesGathers(has, set)), batch(batchOf(set.size, batchSize, shares)),
-      size(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))), rounds(firstRounds),
-      compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size), hits(gpu, "camera hits", size),
-      progress(gpu, "camera progress", 1), eye(gpu, "eye", features), traceKernel(gpu, "trace", features),
-      shade(gpu, "shade", features) {
+      shares(sharesGathers(has, set)), lanes(lanesOf(set.size, pixelSamples)),
+      // Labels know the events of the first path in its lane alone.
+      gatherLanes(has.hasLabels ? 1 : std::min(lanes, set.gatherRays)),
+      batch(batchOf(set.size, batchSize / lanes, shares)),
+      pixels(std::min(set.size.x * set.size.y, batch + (shares ? SHARING_BAND * set.size.x : 0))), size(lanes * pixels),
+      rounds(firstRounds), compaction(gpu, "camera", size, EYE_QUEUES), paths(gpu, "camera paths", size),
+      hits(gpu, "camera hits", size), progress(gpu, "camera progress", 1), eye(gpu, "eye", features),
+      traceKernel(gpu, "trace", features), shade(gpu, "shade", features) {
     const Columns columns(features);
     samples = Buffer<float>(gpu, "camera samples", std::uint64_t(columns.cameraColumns()) * size);
     if (asksLights(features, settings)) {
@@ -66,7 +73,8 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         shadow.emplace(gpu, "shadow", features);
     }
     if (asksMaps(features)) {
-        queries = Buffer<Query>(gpu, "camera queries", size);
+        // Further paths ask no map but after a wide lobe.
+        queries = Buffer<Query>(gpu, "camera queries", has.hasWide ? size : pixels * gatherLanes);
         gather.emplace(gpu, settings.showPoints ? "show_photons" : "gather", features);
     }
     if (settings.integrator == INTEGRATOR_PHOTON && shadow) {
@@ -74,6 +82,7 @@ CameraPaths::CameraPaths(Gpu& device, const UploadedScene& uploaded, const Featu
         split.emplace(gpu, "split", features);
         if (shares) share.emplace(gpu, "share_gathers", features);
     }
+    if (lanes > 1) sum.emplace(gpu, "sum_lanes", features);
 }
 
 void CameraPaths::castShadowRays(Recording& recording) {
@@ -104,35 +113,17 @@ void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMa
 /// One bounce of all paths under way, and the answers to what they ask.
 void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round) {
     const Buffer<Queue>& queues = compaction.queues;
+    const bool gathers = of.sequence == SAMPLES_GATHER;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
-                  {scene.address,
-                   paths,
-                   hits,
-                   samples,
-                   shadowRays,
-                   queries,
-                   splits,
-                   queues,
-                   compaction.list,
-                   compaction.flags,
-                   size,
-                   of.first,
-                   of.sequence,
-                   of.index,
-                   settings.seed,
-                   of.sequence == SAMPLES_EYE ? round : round + 1, // bounces before
-                   features.hasCausticMap,
-                   of.sequence != SAMPLES_EYE ? 1
-                   : of.asks                  ? float(pixelSamples)
-                                              : 0,
-                   1 / float(pixelSamples),
-                   maps.nearDistance,
-                   pixelAngle,
-                   settings.integrator});
+                  {scene.address, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list,
+                   compaction.flags, of.of, size,
+                   (gathers ? SHADE_GATHER_RAYS : 0) | (features.hasCausticMap ? SHADE_CAUSTICS : 0),
+                   gathers ? round + 1 : round, // bounces before
+                   maps.nearDistance, pixelAngle, settings.integrator});
     compaction.compact(recording, round + 1, round + 1 == rounds, progress);
 
-    const bool splits = split && of.sequence == SAMPLES_EYE; // and asks for nothing that a gather ray asks for
+    const bool splits = split && !gathers; // and asks for nothing that a gather ray asks for
     if (!splits || hasMaterials(features, GLOSSY_KINDS)) castShadowRays(recording);
     for (const PhotonMap& narrow : maps.narrow) queryPhotonMap(recording, QUEUE_CAUSTIC, narrow);
     queryPhotonMap(recording, QUEUE_CAUSTIC, maps.caustic);
@@ -140,7 +131,8 @@ void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round)
 }
 
 /// All rounds of a sequence of paths: as many as are known to do, or until the device says that no path is left.
-void CameraPaths::recordPaths(Recording& recording, const Paths& of, std::array<Queue, EYE_QUEUES>& queues) {
+void CameraPaths::recordPaths(Recording& recording, const Paths& of, CameraBatch& batch) {
+    std::array<Queue, EYE_QUEUES>& queues = batch.sequences.emplace_back();
     uint round = 0;
     do {
         for (const uint end = round + (rounds ? rounds : roundsAtOnce); round < end; round++)
@@ -148,14 +140,6 @@ void CameraPaths::recordPaths(Recording& recording, const Paths& of, std::array<
         recording.read(compaction.queues, std::span(queues));
         if (rounds == 0) recording.submit();
     } while (rounds == 0 && queues[QUEUE_CONTINUE].count > 0 && round < MAX_BOUNCES);
-}
-
-/// Pixels give each other what their gather rays brought.
-void CameraPaths::shareGathers(Recording& recording, const CameraBatch& batch) {
-    if (!share || maps.marks) return;
-    recording.run(*share, batch.count,
-                  {scene.address, splits, samples, size, batch.count, batch.first / settings.size.x, settings.size.x,
-                   bandShift(pass), pass, maps.sharingRadius, float(pixelSamples)});
 }
 
 std::vector<CameraBatch> CameraPaths::batches(uint index) const {
@@ -176,53 +160,80 @@ void CameraPaths::begin(uint index, const PhotonMaps& asked) {
     pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
 }
 
+void CameraPaths::recordEyePaths(Recording& recording, const Paths& of, CameraBatch& batch) {
+    compaction.start(recording, of.count());
+    recording.run(eye, of.count(),
+                  {scene.address, paths, samples, compaction.list, splits, of.of, size, of.count(), settings.size,
+                   settings.showPoints, split.has_value()});
+    recordPaths(recording, of, batch);
+}
+
 /// Sends light samples and gather rays from splits, and takes the light samples.
-void CameraPaths::sendSplits(Recording& recording, const Paths& of, float share, uint sends) {
-    const uint count = of.count;
+void CameraPaths::sendSplits(Recording& recording, const Paths& of, uint sends, uint firstLane) {
+    const uint first = firstLane * of.of.pixels, count = of.count() - first;
     compaction.start(recording, count);
-    recording.run(*split, count,
-                  {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, of.first, count,
-                   of.index, settings.seed, share, sends});
+    recording.run(
+        *split, count,
+        {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, of.of, first, count, sends});
     compaction.compact(recording);
     castShadowRays(recording);
 }
 
-/// A path of each pixel. Gather rays start where the first one ends; the others have light samples alone.
-void CameraPaths::recordEyePath(Recording& recording, CameraBatch& batch, uint path) {
-    const bool isFirst = path == 0;
-    // Those of the first path complement each other over all passes, and so do those of the others.
-    const uint further = furtherPaths + pass * (pixelSamples - 1) + path - 1, index = isFirst ? pass : further;
-    compaction.start(recording, batch.count);
-    recording.run(eye, batch.count,
-                  {scene.address, paths, samples, compaction.list, splits, size, settings.size, batch.first,
-                   batch.count, index, settings.seed, settings.showPoints, split.has_value(), isFirst,
-                   1 / float(pixelSamples)});
-    recordPaths(recording, {batch.first, batch.count, SAMPLES_EYE, index, isFirst}, batch.eye.emplace_back());
-    if (!split) return;
-    if (isFirst) {
-        for (uint ray = 0; ray < settings.gatherRays; ray++) {
-            const Paths gathering{batch.first, batch.count, SAMPLES_GATHER, pass * settings.gatherRays + ray, true};
-            sendSplits(recording, gathering, 1 / float(settings.gatherRays), SPLIT_GATHERS);
-            recordPaths(recording, gathering, batch.splits.emplace_back());
-        }
-        shareGathers(recording, batch);
-        return;
+/// Gather rays from where the first path of each pixel ends, which bring light in lanes of their own.
+void CameraPaths::recordGatherRays(Recording& recording, CameraBatch& batch) {
+    for (uint ray = 0; ray < settings.gatherRays; ray += gatherLanes) {
+        const LanePaths of{batch.first, batch.count, pass, ray, settings.gatherRays, settings.seed};
+        const Paths gathering{of, std::min(gatherLanes, settings.gatherRays - ray), SAMPLES_GATHER};
+        sendSplits(recording, gathering, SPLIT_GATHERS);
+        recordPaths(recording, gathering, batch);
+        batch.lookedAt += gathering.count();
     }
+    const Columns columns(features);
+    sumLanes(recording, batch.count, gatherLanes, columns.SAMPLE_COLUMNS, columns.cameraColumns());
+    shareGathers(recording, batch);
+}
+
+/// Light samples from where the further paths of a pixel end.
+void CameraPaths::sendLightSamples(Recording& recording, const Paths& of, CameraBatch& batch) {
+    const uint firstLane = of.of.first == 0 ? 1 : 0;
     const bool endless = (features.lightKinds & ENDLESS_KINDS) != 0;
+    if (firstLane == of.lanes) return;
     for (const uint sends : {SPLIT_LIGHT, SPLIT_BEYOND}) {
         if (sends == SPLIT_BEYOND && !endless) continue;
-        sendSplits(recording, {batch.first, batch.count, SAMPLES_GATHER, further, false}, 1, sends);
-        recording.read(compaction.queues, std::span(batch.splits.emplace_back()));
+        sendSplits(recording, of, sends, firstLane);
+        recording.read(compaction.queues, std::span(batch.sequences.emplace_back()));
+        batch.lookedAt += of.count() - firstLane * of.of.pixels;
     }
 }
 
+/// Adds columns of other lanes to those of the first one.
+void CameraPaths::sumLanes(Recording& recording, uint count, uint lanesUsed, uint firstColumn, uint endColumn) {
+    if (sum && lanesUsed > 1) recording.run(*sum, count, {samples, size, count, lanesUsed, firstColumn, endColumn});
+}
+
+/// Pixels give each other what their gather rays brought.
+void CameraPaths::shareGathers(Recording& recording, const CameraBatch& batch) {
+    if (!share || maps.marks) return;
+    recording.run(*share, batch.count,
+                  {scene.address, splits, samples, size, batch.count, batch.first / settings.size.x, settings.size.x,
+                   bandShift(pass), pass, maps.sharingRadius, float(pixelSamples)});
+}
+
 void CameraPaths::record(Recording& recording, CameraBatch& batch) {
-    batch.eye.clear();
-    batch.splits.clear();
-    batch.eye.reserve(pixelSamples); // they stay where they are: the device's counts go there
-    batch.splits.reserve(settings.gatherRays + 2 * pixelSamples);
+    batch.sequences.clear();
+    batch.sequences.reserve(settings.gatherRays + 3 * pixelSamples); // they stay: the device's counts go there
+    batch.lookedAt = 0;
     recording.clear(progress);
-    for (uint path = 0; path < pixelSamples; path++) recordEyePath(recording, batch, path);
+    recording.clear(samples);
+    for (uint path = 0; path < pixelSamples; path += lanes) {
+        const LanePaths of{batch.first, batch.count, pass, path, pixelSamples, settings.seed};
+        const Paths fromEye{of, std::min(lanes, pixelSamples - path), SAMPLES_EYE};
+        recordEyePaths(recording, fromEye, batch);
+        if (!split) continue;
+        if (path == 0) recordGatherRays(recording, batch);
+        sendLightSamples(recording, fromEye, batch);
+    }
+    sumLanes(recording, batch.count, lanes, 0, Columns(features).SAMPLE_COLUMNS);
     recording.read(progress, 0, batch.progress);
 }
 

@@ -44,29 +44,29 @@ struct RayCounts {
 struct CameraBatch {
     uint first; // pixel
     uint count;
-    std::vector<std::array<Queue, EYE_QUEUES>> eye{};    // of each path of a pixel
-    std::vector<std::array<Queue, EYE_QUEUES>> splits{}; // of each gather ray, then of what further paths send
+    std::vector<std::array<Queue, EYE_QUEUES>> sequences{}; // of paths that are traced together
+    std::uint64_t lookedAt = 0;                             // for gather rays and light samples, and no rays themselves
     PathRounds progress{};
 
     RayCounts rays() const;
 };
 
 /// Traces some paths for each pixel, and gather rays from where the first of them ends, for a range of pixels at a
-/// time.
+/// time. Up to MAX_LANES paths of a pixel are traced together.
 class CameraPaths {
 public:
     CameraPaths(Gpu& gpu, const UploadedScene& scene, const Features& features, const Settings& settings,
                 uint batchSize, uint rounds = 0);
 
-    /// Pixels that one batch may have.
+    /// Paths that may be under way: of the pixels of a batch, those of the first lane first.
     uint capacity() const { return size; }
     /// The batches of a pass.
     std::vector<CameraBatch> batches(uint pass) const;
     /// Begins a pass, until whose end `maps` stay as they are.
     void begin(uint pass, const PhotonMaps& maps);
-    /// Records what fills `samples` for the pixels of a batch, which has to stay where it is until that is done: as
-    /// many rounds as paths have needed so far. Before that is known most of it is submitted, and the host looks when
-    /// paths end.
+    /// Records what fills the first lane of `samples` for the pixels of a batch, which has to stay where it is until
+    /// that is done: as many rounds as paths have needed so far. Before that is known most of it is submitted, and the
+    /// host looks when paths end.
     void record(Recording& recording, CameraBatch& batch);
     /// Points to a number that is not 0 if paths of the batch that was recorded last did not end.
     Ptr<uint> unfinished() const { return {progress.address + offsetof(PathRounds, unfinished)}; }
@@ -81,19 +81,22 @@ public:
 private:
     /// Paths of a batch that are at the same bounce.
     struct Paths {
-        uint first; // pixel
-        uint count;
-        uint sequence;
-        uint index; // of the sample
-        bool asks;  // the caustic map, for all paths of a pixel
+        LanePaths of;
+        uint lanes;
+        uint sequence; // SAMPLES_...
+
+        uint count() const { return lanes * of.pixels; }
     };
     void castShadowRays(Recording& recording);
-    void shareGathers(Recording& recording, const CameraBatch& batch);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
     void recordRound(Recording& recording, const Paths& of, uint round);
-    void sendSplits(Recording& recording, const Paths& of, float share, uint sends);
-    void recordEyePath(Recording& recording, CameraBatch& batch, uint path);
-    void recordPaths(Recording& recording, const Paths& of, std::array<Queue, EYE_QUEUES>& queues);
+    void recordPaths(Recording& recording, const Paths& of, CameraBatch& batch);
+    void sendSplits(Recording& recording, const Paths& of, uint sends, uint firstLane = 0);
+    void recordEyePaths(Recording& recording, const Paths& of, CameraBatch& batch);
+    void recordGatherRays(Recording& recording, CameraBatch& batch);
+    void sendLightSamples(Recording& recording, const Paths& of, CameraBatch& batch);
+    void sumLanes(Recording& recording, uint pixels, uint lanesUsed, uint firstColumn, uint endColumn);
+    void shareGathers(Recording& recording, const CameraBatch& batch);
 
     Gpu& gpu;
     const UploadedScene& scene;
@@ -101,7 +104,10 @@ private:
     Features features;
     uint pixelSamples; // paths of a pixel
     bool shares;       // what gather rays bring
+    uint lanes;        // paths of a pixel that are traced together
+    uint gatherLanes;  // gather rays of a pixel that are
     uint batch;        // pixels wanted of one
+    uint pixels;       // that one may have
     uint size;
     uint pass = 0;
     float pixelAngle = 0;
@@ -120,6 +126,7 @@ private:
     std::optional<Kernel<ShadowArgs>> shadow; // absent if no path asks
     std::optional<Kernel<GatherArgs>> gather;
     std::optional<Kernel<SplitArgs>> split;        // absent if paths are not split
+    std::optional<Kernel<SumLanesArgs>> sum;       // absent if there is one lane
     std::optional<Kernel<ShareGathersArgs>> share; // absent if there is no global map
 };
 

@@ -14,7 +14,7 @@ namespace vkpm {
 /// out; the picture does not depend on it.
 struct BatchSizes {
     uint photons = 1u << 17;
-    uint camera = 1u << 17;
+    uint camera = 1u << 19;
     uint rounds = 0;
 };
 
