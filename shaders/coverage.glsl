@@ -38,7 +38,7 @@ const uint MOST_LAYERS = 4u;
 bool isCovered(DeviceScene scene, Query query, float radius, vec2 place) {
     vec3 d = toWorld(radius * vec3(place, 0.1), query.normal);
     float depth = 0.2 * radius;
-    Passage none = Passage(false, 0u);
+    Passage none = Passage(false, 0u, true); // photons on what lets a part through make up for that
     for (uint layer = 0u; layer < MOST_LAYERS; layer++) {
         Hit hit = traverse(scene, makeRay(query.position + d, -query.normal), NONE, depth, false, none);
         if (hit.primitive == NONE) return false;
@@ -50,9 +50,15 @@ bool isCovered(DeviceScene scene, Query query, float radius, vec2 place) {
     return false;
 }
 
+// Whether a surface may have holes.
+bool mayHaveHoles(DeviceScene scene, uint id) {
+    return hasOpacity &&
+           MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].seeThrough == 1.0;
+}
+
 // Whether the triangle that the query is on holds all of the disc.
 bool isWithin(DeviceScene scene, Query query, float radius) {
-    if (!hasTriangles || query.primitive >= scene.triangleCount) return false;
+    if (!hasTriangles || query.primitive >= scene.triangleCount || mayHaveHoles(scene, query.primitive)) return false;
     Primitive p = PrimitivePtr(scene.primitives).at[query.primitive];
     vec3 ab = p.b - p.a, bc = p.c - p.b, ca = p.a - p.c;
     vec3 inward =
@@ -62,21 +68,15 @@ bool isWithin(DeviceScene scene, Query query, float radius) {
     return all(greaterThan(abs(inward) * inward, least)) || all(greaterThan(-abs(inward) * inward, least));
 }
 
-bool letsLightThrough(DeviceScene scene, uint id) {
-    return hasOpacity &&
-           MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[id].material].seeThrough != 0.0;
-}
-
 const uint MOST_TRIES = 32u;
 
 // One over the part of the disc that surfaces cover (x), and one over that of the disc of half its area (y): how many
 // points, uniform over the disc, it takes to find a covered one, up to MOST_TRIES, whose expectation that is (of a
 // geometric distribution). For y, a point's counterpart in the inner disc is taken to be covered where the point is, as
 // it is if the covered part is convex. The points are drawn by the place in units of the radius, which scaling leaves
-// alone, without the last bits, in which drivers differ. One on a surface that lets a part of the light through:
-// photons lie on it wherever probes go through it.
+// alone, without the last bits, in which drivers differ.
 vec2 inverseCoverage(DeviceScene scene, Query query, float radius) {
-    if (isWithin(scene, query, radius) || letsLightThrough(scene, query.primitive)) return vec2(1.0);
+    if (isWithin(scene, query, radius)) return vec2(1.0);
     uint draw = hash(floatBitsToUint(abs(roundEven(query.position * (4096.0 / radius)))));
     float inner = 0.0;
     for (uint i = 1u; i < MOST_TRIES; i++) {

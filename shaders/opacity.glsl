@@ -21,11 +21,12 @@ float opacityAt(DeviceScene scene, Material m, uint primitive, vec2 weights, vec
     return m.cutoff > 0.0 ? float(opacity >= m.cutoff) : clamp(opacity, 0.0, 1.0);
 }
 
-// Whether a ray goes through a primitive that it meets; `again` where it meets a sphere the second time.
-bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weights, bool again) {
+// Whether a ray goes through a primitive that it meets; `again` where it meets a sphere the second time. One that
+// looks for all that stops anything goes through nothing but holes.
+bool letsThrough(DeviceScene scene, Ray ray, uint primitive, float t, vec2 weights, bool again, bool stopsAtAny) {
     Material m = MaterialPtr(scene.materials).at[PrimitivePtr(scene.primitives).at[primitive].material];
     if (m.seeThrough == 0.0) return false;
-    float choice = choiceOfRay(ray.origin, ray.direction, 2u * primitive + uint(again));
+    float choice = stopsAtAny ? 0.0 : choiceOfRay(ray.origin, ray.direction, 2u * primitive + uint(again));
     return choice >= opacityAt(scene, m, primitive, weights, ray.origin + t * ray.direction);
 }
 

@@ -35,11 +35,13 @@ float slackOf(DeviceScene scene, Ray ray, uint id) {
            max(abs(dot(ray.direction, normal)), 1e-30);
 }
 
-// Triangles of smooth diffuse meshes that a ray to a light may go through, and has gone through; see terminator.glsl.
+// What a ray goes through.
 struct Passage {
-    bool allowed;
-    uint triangles;
+    bool allowed;    // triangles of smooth diffuse meshes, on the way to a light; see terminator.glsl
+    uint triangles;  // of these, so far
+    bool stopsAtAny; // no surface that lets a part of the light through
 };
+const Passage NO_PASSAGE = Passage(false, 0u, false);
 
 bool isSmoothDiffuse(DeviceScene scene, uint id) {
     if (id >= scene.triangleCount || PrimitivePtr(scene.primitives).at[id].normals == NONE) return false;
@@ -47,10 +49,10 @@ bool isSmoothDiffuse(DeviceScene scene, uint id) {
 }
 
 // Where a sphere that may let a part of the light through stops a ray: at either root, or -1.
-float sphereStop(DeviceScene scene, Ray ray, uint id, vec3 center, float radius, vec3 pole) {
+float sphereStop(DeviceScene scene, Ray ray, uint id, vec3 center, float radius, vec3 pole, bool stopsAtAny) {
     vec2 roots = sphereRoots(ray, center, radius, pole);
-    if (roots.x > 0.0 && !letsThrough(scene, ray, id, roots.x, vec2(0.0), false)) return roots.x;
-    if (roots.y > 0.0 && !letsThrough(scene, ray, id, roots.y, vec2(0.0), true)) return roots.y;
+    if (roots.x > 0.0 && !letsThrough(scene, ray, id, roots.x, vec2(0.0), false, stopsAtAny)) return roots.x;
+    if (roots.y > 0.0 && !letsThrough(scene, ray, id, roots.y, vec2(0.0), true, stopsAtAny)) return roots.y;
     return -1.0;
 }
 
@@ -64,7 +66,8 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
     if (hasSpheres && (!hasTriangles || id >= scene.triangleCount)) {
         vec3 center = LeafPtr(scene.leaves).at[slot].a, pole = LeafPtr(scene.leaves).at[slot].c;
         float radius = LeafPtr(scene.leaves).at[slot].b.x;
-        t = hasOpacity ? sphereStop(scene, ray, id, center, radius, pole) : intersectSphere(ray, center, radius, pole);
+        t = hasOpacity ? sphereStop(scene, ray, id, center, radius, pole, passage.stopsAtAny)
+                       : intersectSphere(ray, center, radius, pole);
     } else {
         // Loads in the order of the ray's axes save the exchange.
         LeafNumbersPtr leaves = LeafNumbersPtr(scene.leaves);
@@ -75,7 +78,8 @@ void intersectLeaf(DeviceScene scene, Ray ray, uint from, uint slot, const bool 
         t = id == from ? -1.0 : intersectPermuted(ray, a, b, c, weights);
     }
     if (!(t > 0.0 && (t < hit.t || (t == hit.t && hit.primitive != NONE && id < hit.primitive)))) return;
-    if (hasOpacity && hasTriangles && id < scene.triangleCount && letsThrough(scene, ray, id, t, weights, false))
+    if (hasOpacity && hasTriangles && id < scene.triangleCount &&
+        letsThrough(scene, ray, id, t, weights, false, passage.stopsAtAny))
         return;
     if (any && hasSmoothDiffuse && passage.allowed && isSmoothDiffuse(scene, id)) {
         passage.triangles++;
@@ -156,13 +160,13 @@ Hit traverse(DeviceScene scene, Ray ray, uint from, float tMax, const bool any, 
 
 // The closest hit with t > 0 of a ray that leaves the primitive `from`, or NONE.
 Hit closest(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
-    Passage none = Passage(false, 0u);
+    Passage none = NO_PASSAGE;
     return traverse(scene, makeRay(origin, direction), from, GREATEST, false, none);
 }
 
 // Whether anything stands between two points.
 bool occluded(DeviceScene scene, vec3 origin, vec3 target, uint from) {
-    Passage none = Passage(false, 0u);
+    Passage none = NO_PASSAGE;
     return traverse(scene, makeRay(origin, target - origin), from, 1.0, true, none).primitive != NONE;
 }
 
@@ -177,7 +181,7 @@ vec3 beneath(DeviceScene scene, vec3 origin, vec3 direction, uint from) {
 
 // Whether a light sample is hidden.
 bool hidden(DeviceScene scene, ShadowRay ray) {
-    Passage passage = Passage(hasSmoothDiffuse && (ray.flags & SHADOW_THROUGH) != 0u, 0u);
+    Passage passage = Passage(hasSmoothDiffuse && (ray.flags & SHADOW_THROUGH) != 0u, 0u, false);
     bool endless = hasEndless && (ray.flags & SHADOW_ENDLESS) != 0u;
     vec3 way = endless ? ray.target : ray.target - ray.origin;
     if (passage.allowed) {

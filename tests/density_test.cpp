@@ -234,7 +234,8 @@ Scene squareWith(std::vector<Primitive> more, float scale = 1) {
     return sceneOf(std::move(more), count);
 }
 
-// At a free edge, in a corner, and in a corner with a sheet of glass before it.
+// At a free edge, also of what lets a part of the light through, whose photons make up for that; in a corner, and in a
+// corner with a sheet of glass before it.
 TEST(Density, CoverageIsThePartOfADiscThatLiesOnSurfaces) {
     const vec3 low{1, -1, 0}, high{1, 1, 0}, up{0, 0, 1};
     const Scene edge = squareWith({});
@@ -244,8 +245,10 @@ TEST(Density, CoverageIsThePartOfADiscThatLiesOnSurfaces) {
     pane.materials.push_back({MATERIAL_GLASS, vec3{1}, 1.5f});
     for (Primitive& p : pane.primitives)
         if (p.a.z > 0) p.material = 1;
+    Scene sheet = squareWith({});
+    for (Material& m : sheet.materials) m.seeThrough = 0.6f;
     const float r = 0.2f;
-    for (const Scene* scene : std::initializer_list<const Scene*>{&edge, &corner, &pane})
+    for (const Scene* scene : std::initializer_list<const Scene*>{&edge, &sheet, &corner, &pane})
         for (const double t : {0.1, 0.4, 0.8}) {
             Mean outer, inner;
             for (const vec2 v : coverageAlong(*scene, float(1 - t * double{r}), r)) outer.add(v.x), inner.add(v.y);
