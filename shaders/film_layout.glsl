@@ -37,12 +37,6 @@ uint layerColumn(uint layer) {
     }
 }
 
-// Whether further paths of a pixel, which end where they meet something diffuse and ask no map of caustics, may have
-// something in a column of the samples; if not, only the first lane has.
-bool isOfFurtherPaths(uint column) {
-    return hasWide || column < COLUMN_CAUSTIC || (column >= COLUMN_ALBEDO && column < COLUMN_BIAS);
-}
-
 // What three columns, the first of them given, hold at a place; `stride` is the length of a column.
 vec3 loadColumns(floatPtr columns, uint stride, uint column, uint place) {
     uint at = column * stride + place;

@@ -12,7 +12,7 @@ void main() {
     uint pixel = threadIndex();
     if (pixel >= args.pixels) return;
     [[dont_unroll]] for (uint column = args.firstColumn; column < args.endColumn; column++) {
-        if (isLabel(column) || (column < SAMPLE_COLUMNS && !isOfFurtherPaths(column))) continue;
+        if (isLabel(column)) continue;
         uint at = column * args.stride + pixel;
         float sum = args.samples.at[at];
         for (uint lane = 1u; lane < args.lanes; lane++) sum += args.samples.at[at + lane * args.pixels];

@@ -29,6 +29,11 @@ struct Gpu::Handles {
     std::map<std::pair<const std::uint32_t*, std::string>, std::weak_ptr<const RawKernel::Handles>>
         kernels;                                                  // by SPIR-V and features
     std::deque<std::shared_ptr<const RawKernel::Handles>> recent; // kernels that are kept for renderers to come
+    struct ToWarmUp {
+        std::shared_ptr<const RawKernel::Handles> kernel;
+        std::uint32_t argsBytes;
+    };
+    std::vector<ToWarmUp> toWarmUp; // when they are created
     std::vector<std::pair<vk::raii::CommandBuffer, std::shared_ptr<const void>>>
         warmingUp;                                         // submitted without waiting, and what they use
     std::vector<std::unique_ptr<RecordingPart>> idleParts; // for recordings to come

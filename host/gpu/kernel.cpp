@@ -3,7 +3,10 @@
 #include "gpu/specialization.h"
 #include "gpu/spirv.h"
 #include "shared_kinds.h"
+#include <algorithm>
 #include <array>
+#include <semaphore>
+#include <thread>
 
 namespace vkpm {
 
@@ -33,11 +36,8 @@ static std::string embeddedName(const std::string& name, const Features& f) {
     return plain && isKernel(name + "/plain") ? name + "/plain" : name;
 }
 
-static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device& device, const std::string& name,
-                                                         const std::string& embedded, const Features& has,
-                                                         std::uint32_t argsBytes) {
-    auto handles = std::make_shared<RawKernel::Handles>();
-    handles->name = name;
+static vk::raii::Pipeline createPipeline(const vk::raii::Device& device, const std::string& name,
+                                         const std::string& embedded, const Features& has, vk::PipelineLayout layout) {
     const FeatureWords features = wordsOf(has);
     // Plain kernels are small as they are.
     const bool isSpecial = embedded == name && features != wordsOf(Features{});
@@ -46,11 +46,9 @@ static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device&
     std::array<vk::SpecializationMapEntry, featureIds.size()> entries;
     for (std::uint32_t i = 0; i < entries.size(); i++)
         entries[i] = vk::SpecializationMapEntry{.constantID = featureIds[i], .offset = 4 * i, .size = 4};
-    attempt("creating the kernel " + name, "", [&] {
+    return attempt("creating the kernel " + name, "", [&] {
         const vk::raii::ShaderModule module(
             device, vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()});
-        const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = argsBytes};
-        handles->layout = device.createPipelineLayout({.pushConstantRangeCount = 1, .pPushConstantRanges = &range});
         const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),
                                                .pMapEntries = entries.data(),
                                                .dataSize = sizeof(features),
@@ -59,9 +57,26 @@ static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device&
                                                       .module = *module,
                                                       .pName = "main",
                                                       .pSpecializationInfo = &constants};
-        handles->pipeline = device.createComputePipeline(
-            nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = *handles->layout});
+        return device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo{.stage = stage, .layout = layout});
     });
+}
+
+// Drivers take their time for a pipeline: as many are created at a time as there are cores, while the host goes on.
+static std::shared_ptr<const RawKernel::Handles> create(const vk::raii::Device& device, const std::string& name,
+                                                        const std::string& embedded, const Features& features,
+                                                        std::uint32_t argsBytes) {
+    static std::counting_semaphore<> cores{std::max<std::ptrdiff_t>(std::thread::hardware_concurrency(), 1)};
+    auto handles = std::make_shared<RawKernel::Handles>();
+    handles->name = name;
+    const vk::PushConstantRange range{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = argsBytes};
+    attempt("creating the kernel " + name, "", [&] {
+        handles->layout = device.createPipelineLayout({.pushConstantRangeCount = 1, .pPushConstantRanges = &range});
+    });
+    handles->created = std::async(std::launch::async, [&device, name, embedded, features, layout = *handles->layout] {
+                           cores.acquire();
+                           const std::shared_ptr<void> done(nullptr, [](void*) { cores.release(); });
+                           return createPipeline(device, name, embedded, features, layout);
+                       }).share();
     return handles;
 }
 
@@ -69,13 +84,21 @@ static std::shared_ptr<const RawKernel::Handles> compile(const vk::raii::Device&
 static void warmUp(Gpu::Handles& gpu, const std::shared_ptr<const RawKernel::Handles>& kernel,
                    std::uint32_t argsBytes) {
     vk::raii::CommandBuffer commands = gpu.begin();
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel->pipeline);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, kernel->pipeline());
     commands.pushConstants<std::uint8_t>(*kernel->layout, vk::ShaderStageFlagBits::eCompute, 0,
                                          std::vector<std::uint8_t>(argsBytes));
     commands.dispatch(0, 1, 1);
     commands.end();
     gpu.submit(commands, nullptr);
     gpu.warmingUp.emplace_back(std::move(commands), kernel);
+}
+
+static void warmUpCreated(Gpu::Handles& gpu) {
+    std::erase_if(gpu.toWarmUp, [&](const Gpu::Handles::ToWarmUp& waiting) {
+        if (!waiting.kernel->isReady()) return false;
+        warmUp(gpu, waiting.kernel, waiting.argsBytes);
+        return true;
+    });
 }
 
 RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::uint32_t argsBytes) {
@@ -85,8 +108,9 @@ RawKernel::RawKernel(Gpu& gpu, std::string name, const Features& features, std::
     std::weak_ptr<const Handles>& known = gpu.handles->kernels[{findSpirv(embedded).data(), featureBytes}];
     handles = known.lock();
     if (handles) return;
-    known = handles = compile(gpu.handles->device, name, embedded, features, argsBytes);
-    if (gpu.compilesAhead) warmUp(*gpu.handles, handles, argsBytes);
+    known = handles = create(gpu.handles->device, name, embedded, features, argsBytes);
+    if (gpu.compilesAhead) gpu.handles->toWarmUp.push_back({handles, argsBytes});
+    warmUpCreated(*gpu.handles);
     gpu.handles->recent.push_back(handles);
     if (gpu.handles->recent.size() > keptKernels) gpu.handles->recent.pop_front();
 }

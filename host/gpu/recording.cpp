@@ -48,7 +48,7 @@ struct Recording::Handles {
     }
 
     void bind(const RawKernel& kernel, const void* args, std::uint32_t bytes) {
-        commands().bindPipeline(vk::PipelineBindPoint::eCompute, *kernel.handles->pipeline);
+        commands().bindPipeline(vk::PipelineBindPoint::eCompute, kernel.handles->pipeline());
         commands().pushConstants<std::uint8_t>(
             *kernel.handles->layout, vk::ShaderStageFlagBits::eCompute, 0,
             vk::ArrayProxy<const std::uint8_t>(bytes, static_cast<const std::uint8_t*>(args)));

@@ -208,7 +208,8 @@ void CameraPaths::sendLightSamples(Recording& recording, const Paths& of, Camera
 
 /// Adds columns of other lanes to those of the first one.
 void CameraPaths::sumLanes(Recording& recording, uint count, uint lanesUsed, uint firstColumn, uint endColumn) {
-    if (sum && lanesUsed > 1) recording.run(*sum, count, {samples, size, count, lanesUsed, firstColumn, endColumn});
+    if (sum && lanesUsed > 1 && firstColumn < endColumn)
+        recording.run(*sum, count, {samples, size, count, lanesUsed, firstColumn, endColumn});
 }
 
 /// Pixels give each other what their gather rays brought.
@@ -233,7 +234,11 @@ void CameraPaths::record(Recording& recording, CameraBatch& batch) {
         if (path == 0) recordGatherRays(recording, batch);
         sendLightSamples(recording, fromEye, batch);
     }
-    sumLanes(recording, batch.count, lanes, 0, Columns(features).SAMPLE_COLUMNS);
+    const Columns columns(features);
+    // Further paths end where they meet something diffuse, unless a wide lobe came before.
+    sumLanes(recording, batch.count, lanes, 0, features.hasWide ? columns.COLUMN_ALBEDO : columns.COLUMN_CAUSTIC);
+    sumLanes(recording, batch.count, lanes, columns.COLUMN_ALBEDO,
+             features.hasWide ? columns.SAMPLE_COLUMNS : columns.COLUMN_BIAS);
     recording.read(progress, 0, batch.progress);
 }
 

@@ -39,7 +39,8 @@ def by_alpha(alpha: float, **material: object) -> None:
     """Facets from hardly to fully rough."""
     @case("gloss", f"a ball of {material['type']} with alpha {alpha:g}", "mean of the path tracer within 2 %")
     def judge(lab: Lab) -> Verdict:
-        tame = with_ball(**material, roughness=0.5)
+        # On the same side of the threshold between narrow lobes, at which photons are aimed, and wide ones.
+        tame = with_ball(**material, roughness=0.5 if alpha >= 0.25 else 0.4)
         return against_path(lab, with_ball(**material, roughness=alpha**0.5), 0.02, tame, "256")
 
 
