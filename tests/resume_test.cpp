@@ -304,7 +304,7 @@ TEST_F(Resume, AFullDiskLeavesTheLastGoodFile) {
     EXPECT_TRUE(bytesOf(folder / "kept.exr") == bytesOf(folder / "x.exr"));
 
     // On the way it is a warning: space may come back before the end.
-    const Result onTheWay = shell(program + "--time 1 --resume --checkpoint 0.2 -o disk/x.exr" + keep);
+    const Result onTheWay = shell(program + "--time 3 --resume --checkpoint 0.2 -o disk/x.exr" + keep);
     EXPECT_EQ(onTheWay.code, 1);
     EXPECT_THAT(onTheWay.output, AllOf(HasSubstr("warning: checkpoint"), HasSubstr("rendering goes on")));
     EXPECT_TRUE(bytesOf(folder / "kept.exr") == bytesOf(folder / "x.exr"));

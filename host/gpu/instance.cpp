@@ -9,7 +9,7 @@
 
 namespace vkpm {
 
-static bool wantsValidation() {
+bool wantsValidation() {
     const char* value = std::getenv("VKPM_VALIDATION");
     return value && std::strcmp(value, "0") != 0;
 }

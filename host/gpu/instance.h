@@ -10,6 +10,9 @@ namespace vkpm {
 inline const char* const installHint =
     "install a Vulkan 1.3 driver (on Debian: mesa-vulkan-drivers), or run tools/setup";
 
+/// Whether VKPM_VALIDATION asks for the validation layer.
+bool wantsValidation();
+
 /// An instance with extensions by name; with the validation layer, whose messages end the program, if VKPM_VALIDATION
 /// asks for it.
 struct Instance {

@@ -77,6 +77,8 @@ static std::shared_ptr<const RawKernel::Handles> create(const vk::raii::Device& 
                            const std::shared_ptr<void> done(nullptr, [](void*) { cores.release(); });
                            return createPipeline(device, name, embedded, features, layout);
                        }).share();
+    // The validation layer numbers what it writes into kernels: one after the other, or the driver's cache knows none.
+    if (wantsValidation()) handles->created.wait();
     return handles;
 }
 

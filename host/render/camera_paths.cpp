@@ -111,13 +111,13 @@ void CameraPaths::queryPhotonMap(Recording& recording, uint kind, const PhotonMa
 }
 
 /// One bounce of all paths under way, and the answers to what they ask.
-void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round) {
+void CameraPaths::recordRound(Recording& recording, const Paths& traced, uint round) {
     const Buffer<Queue>& queues = compaction.queues;
-    const bool gathers = of.sequence == SAMPLES_GATHER;
+    const bool gathers = traced.sequence == SAMPLES_GATHER;
     recording.run(traceKernel, queues, QUEUE_CONTINUE, {scene.address, paths, hits, queues, compaction.list});
     recording.run(shade, queues, QUEUE_CONTINUE,
                   {scene.address, paths, hits, samples, shadowRays, queries, splits, queues, compaction.list,
-                   compaction.flags, of.of, size,
+                   compaction.flags, traced.of, size,
                    (gathers ? SHADE_GATHER_RAYS : 0) | (features.hasCausticMap ? SHADE_CAUSTICS : 0),
                    gathers ? round + 1 : round, // bounces before
                    maps.nearDistance, pixelAngle, settings.integrator});
@@ -131,12 +131,12 @@ void CameraPaths::recordRound(Recording& recording, const Paths& of, uint round)
 }
 
 /// All rounds of a sequence of paths: as many as are known to do, or until the device says that no path is left.
-void CameraPaths::recordPaths(Recording& recording, const Paths& of, CameraBatch& batch) {
+void CameraPaths::recordPaths(Recording& recording, const Paths& traced, CameraBatch& batch) {
     std::array<Queue, EYE_QUEUES>& queues = batch.sequences.emplace_back();
     uint round = 0;
     do {
         for (const uint end = round + (rounds ? rounds : roundsAtOnce); round < end; round++)
-            recordRound(recording, of, round);
+            recordRound(recording, traced, round);
         recording.read(compaction.queues, std::span(queues));
         if (rounds == 0) recording.submit();
     } while (rounds == 0 && queues[QUEUE_CONTINUE].count > 0 && round < MAX_BOUNCES);
@@ -160,21 +160,21 @@ void CameraPaths::begin(uint index, const PhotonMaps& asked) {
     pixelAngle = 2 * glm::length(scene.camera().up) / float(settings.size.y);
 }
 
-void CameraPaths::recordEyePaths(Recording& recording, const Paths& of, CameraBatch& batch) {
-    compaction.start(recording, of.count());
-    recording.run(eye, of.count(),
-                  {scene.address, paths, samples, compaction.list, splits, of.of, size, of.count(), settings.size,
-                   settings.showPoints, split.has_value()});
-    recordPaths(recording, of, batch);
+void CameraPaths::recordEyePaths(Recording& recording, const Paths& traced, CameraBatch& batch) {
+    compaction.start(recording, traced.count());
+    recording.run(eye, traced.count(),
+                  {scene.address, paths, samples, compaction.list, splits, traced.of, size, traced.count(),
+                   settings.size, settings.showPoints, split.has_value()});
+    recordPaths(recording, traced, batch);
 }
 
 /// Sends light samples and gather rays from splits, and takes the light samples.
-void CameraPaths::sendSplits(Recording& recording, const Paths& of, uint sends, uint firstLane) {
-    const uint first = firstLane * of.of.pixels, count = of.count() - first;
+void CameraPaths::sendSplits(Recording& recording, const Paths& traced, uint sends, uint firstLane) {
+    const uint first = firstLane * traced.of.pixels, count = traced.count() - first;
     compaction.start(recording, count);
     recording.run(
         *split, count,
-        {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, of.of, first, count, sends});
+        {scene.address, splits, paths, shadowRays, compaction.list, compaction.flags, traced.of, first, count, sends});
     compaction.compact(recording);
     castShadowRays(recording);
 }
@@ -194,15 +194,15 @@ void CameraPaths::recordGatherRays(Recording& recording, CameraBatch& batch) {
 }
 
 /// Light samples from where the further paths of a pixel end.
-void CameraPaths::sendLightSamples(Recording& recording, const Paths& of, CameraBatch& batch) {
-    const uint firstLane = of.of.first == 0 ? 1 : 0;
+void CameraPaths::sendLightSamples(Recording& recording, const Paths& traced, CameraBatch& batch) {
+    const uint firstLane = traced.of.first == 0 ? 1 : 0;
     const bool endless = (features.lightKinds & ENDLESS_KINDS) != 0;
-    if (firstLane == of.lanes) return;
+    if (firstLane == traced.lanes) return;
     for (const uint sends : {SPLIT_LIGHT, SPLIT_BEYOND}) {
         if (sends == SPLIT_BEYOND && !endless) continue;
-        sendSplits(recording, of, sends, firstLane);
+        sendSplits(recording, traced, sends, firstLane);
         recording.read(compaction.queues, std::span(batch.sequences.emplace_back()));
-        batch.lookedAt += of.count() - firstLane * of.of.pixels;
+        batch.lookedAt += traced.count() - firstLane * traced.of.pixels;
     }
 }
 

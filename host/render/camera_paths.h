@@ -89,12 +89,12 @@ private:
     };
     void castShadowRays(Recording& recording);
     void queryPhotonMap(Recording& recording, uint queue, const PhotonMap& map);
-    void recordRound(Recording& recording, const Paths& of, uint round);
-    void recordPaths(Recording& recording, const Paths& of, CameraBatch& batch);
-    void sendSplits(Recording& recording, const Paths& of, uint sends, uint firstLane = 0);
-    void recordEyePaths(Recording& recording, const Paths& of, CameraBatch& batch);
+    void recordRound(Recording& recording, const Paths& traced, uint round);
+    void recordPaths(Recording& recording, const Paths& traced, CameraBatch& batch);
+    void sendSplits(Recording& recording, const Paths& traced, uint sends, uint firstLane = 0);
+    void recordEyePaths(Recording& recording, const Paths& traced, CameraBatch& batch);
     void recordGatherRays(Recording& recording, CameraBatch& batch);
-    void sendLightSamples(Recording& recording, const Paths& of, CameraBatch& batch);
+    void sendLightSamples(Recording& recording, const Paths& traced, CameraBatch& batch);
     void sumLanes(Recording& recording, uint pixels, uint lanesUsed, uint firstColumn, uint endColumn);
     void shareGathers(Recording& recording, const CameraBatch& batch);
 
