@@ -19,13 +19,13 @@ void main() {
     uint slot = threadIndex();
     if (slot >= args.count) return;
     uint pixel = args.of.firstPixel + pixelOfSlot(args.of, slot);
-    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(eyeSampler(args.of, slot), 0u);
+    vec2 within = args.centered != 0u ? vec2(0.5) : sample2(eyeSampler(args.of, slot, SAMPLES_EYE), 0u);
     vec2 film = (vec2(pixel % args.size.x, pixel / args.size.x) + within) / vec2(args.size);
     Camera camera = args.scene.at[0].camera;
     uint media = hasMedia ? args.scene.at[0].cameraMedia : 0u;
     vec3 origin = camera.origin, direction = cameraDirection(camera, film);
     if (hasLens && camera.aperture > 0.0) {
-        vec3 offset = lensPoint(camera, sample2(eyeSampler(args.of, slot), LENS_DIMENSION));
+        vec3 offset = lensPoint(camera, sample2(eyeSampler(args.of, slot, SAMPLES_EYE), LENS_DIMENSION));
         origin += offset;
         direction = lensDirection(camera, offset, film);
     }

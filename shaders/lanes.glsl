@@ -15,15 +15,9 @@ uint eyeIndex(LanePaths of, uint path) {
     return path == 0u ? of.pass : FURTHER_PATHS + of.pass * (of.each - 1u) + path - 1u;
 }
 
-Sampler eyeSampler(LanePaths of, uint slot) {
-    return pixelSampler(of.firstPixel + pixelOfSlot(of, slot), eyeIndex(of, pathOfSlot(of, slot)), of.seed,
-                        SAMPLES_EYE);
-}
-
-// Of what the path of a slot sends from where it ends.
-Sampler splitSampler(LanePaths of, uint slot) {
-    return pixelSampler(of.firstPixel + pixelOfSlot(of, slot), eyeIndex(of, pathOfSlot(of, slot)), of.seed,
-                        SAMPLES_GATHER);
+// Of the path of a slot, or, in SAMPLES_GATHER, of what it sends from where it ends.
+Sampler eyeSampler(LanePaths of, uint slot, uint sequence) {
+    return pixelSampler(of.firstPixel + pixelOfSlot(of, slot), eyeIndex(of, pathOfSlot(of, slot)), of.seed, sequence);
 }
 
 // Of a gather ray, and of the light sample that is sent with it.

@@ -333,7 +333,8 @@ Vertex shade(uint slot, uint bounce, Path path, Hit hit) {
     if (surface.light != NONE && activeIntegrator() != INTEGRATOR_PHOTON_MAP) addEmission(vertex, scene, path, surface);
     if (hasWide && activeIntegrator() == INTEGRATOR_DIRECT && diffuseCount(path.flags) > 0u) return vertex;
 
-    BounceSampler s = BounceSampler(isGatherRay() ? gatherSampler(args.of, slot) : eyeSampler(args.of, slot), bounce);
+    BounceSampler s =
+        BounceSampler(isGatherRay() ? gatherSampler(args.of, slot) : eyeSampler(args.of, slot, SAMPLES_EYE), bounce);
     bool diffuse = isDiffuse(material), continues = continuesAfterLobe(path, isWideHere(material));
     float cosine = hasLayered ? -dot(path.direction, scatteringNormal(surface, path.direction)) : 1.0;
     bool asked = false, lit = false;

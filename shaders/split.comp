@@ -78,7 +78,7 @@ uint send(uint slot) {
     bool ofFirst = args.sends == SPLIT_GATHERS; // path of the pixel
     Split from = args.splits.at[ofFirst ? pixelOfSlot(args.of, slot) : slot];
     if (from.flags == NONE) return 0u;
-    Sampler s = ofFirst ? gatherSampler(args.of, slot) : splitSampler(args.of, slot);
+    Sampler s = ofFirst ? gatherSampler(args.of, slot) : eyeSampler(args.of, slot, SAMPLES_GATHER);
     if (hasEndless && args.sends == SPLIT_BEYOND) return uint(sendRayBeyond(slot, from, s)) << QUEUE_SHADOW;
     if (args.sends == SPLIT_LIGHT) return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW;
     return uint(sendLightSample(slot, from, s)) << QUEUE_SHADOW | uint(sendGatherRay(slot, from, s)) << QUEUE_CONTINUE;
