@@ -81,15 +81,18 @@ TEST_F(Machine, MoreThanTheDeviceHasIsRefusedBeforeItIsUsed) {
 TEST_F(Machine, ALostDeviceLosesNothingSaved) {
     const std::string options = box + "--passes 40 --photons 500 ";
     EXPECT_EQ(run(options + "-o whole.exr").code, 0);
-    int before = 0;
-    for (const int submission : {60, 75, 90}) {
+    int before = 0, saved = 0;
+    for (int submission = 60; saved < 3; submission += submission / 4) {
+        ASSERT_LT(submission, 2000);
         const Result lost = runOn(fmt::format("VKPM_LAYER_LOST={}", submission),
                                   options + "--checkpoint 0.000001 --resume --log log.jsonl -o x.exr");
         EXPECT_EQ(lost.code, 1) << lost.output;
-        EXPECT_THAT(lost.output, AllOf(HasSubstr("running commands on the device failed"), HasSubstr("ErrorDeviceLost"),
+        EXPECT_THAT(lost.output, HasSubstr("ErrorDeviceLost"));
+        if (!fs::exists(folder / "x.exr")) continue; // within the first pass, where the host copies to and fro
+        saved++;
+        EXPECT_THAT(lost.output, AllOf(HasSubstr("running commands on the device failed"),
                                        HasSubstr("x.exr holds the first "), HasSubstr("--resume goes on from there")));
         EXPECT_THAT(bytesOf(folder / "log.jsonl"), HasSubstr("\"event\":\"failed\""));
-        ASSERT_TRUE(fs::exists(folder / "x.exr"));
         EXPECT_GT(passesOf("x.exr"), before);
         before = passesOf("x.exr");
         EXPECT_LT(before, 40);

@@ -8,6 +8,7 @@ namespace vkpm {
 
 static constexpr int warmUps = 2; // the first compiles the kernel
 static constexpr int pairs = 11;
+static constexpr double busySeconds = 0.1; // by when a GPU that rested has its clocks up
 
 double median(std::vector<double> values) {
     std::ranges::nth_element(values, values.begin() + values.size() / 2);
@@ -17,6 +18,7 @@ double median(std::vector<double> values) {
 PairedSeconds measurePairs(const std::function<double()>& vkpm, const std::function<double()>& yardstick) {
     std::vector<double> first, second, ratios;
     for (int i = -warmUps; i < pairs; i++) {
+        for (double busy = 0; busy < busySeconds;) busy += wallSeconds(vkpm);
         const double one = vkpm(), other = yardstick();
         if (i < 0) continue;
         first.push_back(one);

@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace vkpm {
 
@@ -119,13 +120,15 @@ HostMemory::HostMemory(const Gpu& gpu, const std::string& name, std::uint64_t si
 
 const std::uint64_t stagingBytes = 16u << 20;
 
-// Copies between the buffer and the host in pieces of the staging memory, which `use` fills or reads; one thread at a
-// time.
-static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::uint64_t offset, bool toDevice,
+// Copies between the buffer and the host in pieces of the staging memory, which `use` fills or reads, one submission
+// for each; one thread at a time. A wait for the device takes a GPU longer than a row, so there is none for each of
+// these.
+static void stage(const RawBuffer::Handles& handles, const Rows& rows, bool toDevice,
                   const std::function<void(char* staged, std::uint64_t done, std::uint64_t size)>& use) {
     static std::mutex one;
     const std::lock_guard lock(one);
     Gpu& gpu = handles.gpu;
+    const std::uint64_t bytes = rows.count * rows.bytes;
     if (!gpu.handles->staging || gpu.handles->staging->bytes < std::min(bytes, stagingBytes))
         gpu.handles->staging = std::make_unique<HostMemory>(
             gpu, "staging", std::min(std::max<std::uint64_t>(std::bit_ceil(bytes), 1u << 16), stagingBytes));
@@ -133,14 +136,17 @@ static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::u
     const vk::raii::Fence fence(gpu.handles->device, vk::FenceCreateInfo{});
     for (std::uint64_t done = 0; done < bytes; done += staging.bytes) {
         const std::uint64_t size = std::min(staging.bytes, bytes - done);
+        std::vector<vk::BufferCopy> copies;
+        for (std::uint64_t at = done; at < done + size; at += copies.back().size) {
+            const std::uint64_t inRow = at % rows.bytes, inBuffer = rows.offset + at / rows.bytes * rows.stride + inRow;
+            copies.push_back({.srcOffset = toDevice ? at - done : inBuffer,
+                              .dstOffset = toDevice ? inBuffer : at - done,
+                              .size = std::min(rows.bytes - inRow, done + size - at)});
+        }
         if (toDevice) use(staging.mapped, done, size);
         const vk::raii::CommandBuffer commands = gpu.handles->begin();
-        if (toDevice)
-            commands.copyBuffer(*staging.buffer, *handles.buffer,
-                                vk::BufferCopy{.dstOffset = offset + done, .size = size});
-        else
-            commands.copyBuffer(*handles.buffer, *staging.buffer,
-                                vk::BufferCopy{.srcOffset = offset + done, .size = size});
+        if (toDevice) commands.copyBuffer(*staging.buffer, *handles.buffer, copies);
+        else commands.copyBuffer(*handles.buffer, *staging.buffer, copies);
         const vk::MemoryBarrier2 after{
             .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
             .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
@@ -157,21 +163,27 @@ static void stage(const RawBuffer::Handles& handles, std::uint64_t bytes, std::u
     }
 }
 
-void RawBuffer::write(const void* data, std::uint64_t size, std::uint64_t offset) {
-    if (size == 0) return;
+void RawBuffer::write(const void* data, const Rows& rows) {
+    if (rows.count * rows.bytes == 0) return;
     const char* from = static_cast<const char*>(data);
-    if (handles->mapped) std::memcpy(static_cast<char*>(handles->mapped) + offset, data, size);
+    if (handles->mapped)
+        for (std::uint64_t row = 0; row < rows.count; row++)
+            std::memcpy(static_cast<char*>(handles->mapped) + rows.offset + row * rows.stride, from + row * rows.bytes,
+                        rows.bytes);
     else
-        stage(*handles, size, offset, true,
+        stage(*handles, rows, true,
               [&](char* staged, std::uint64_t done, std::uint64_t part) { std::memcpy(staged, from + done, part); });
 }
 
-void RawBuffer::read(void* data, std::uint64_t size, std::uint64_t offset) const {
-    if (size == 0) return;
+void RawBuffer::read(void* data, const Rows& rows) const {
+    if (rows.count * rows.bytes == 0) return;
     char* to = static_cast<char*>(data);
-    if (handles->mapped) std::memcpy(data, static_cast<const char*>(handles->mapped) + offset, size);
+    if (handles->mapped)
+        for (std::uint64_t row = 0; row < rows.count; row++)
+            std::memcpy(to + row * rows.bytes,
+                        static_cast<const char*>(handles->mapped) + rows.offset + row * rows.stride, rows.bytes);
     else
-        stage(*handles, size, offset, false, [&](const char* staged, std::uint64_t done, std::uint64_t part) {
+        stage(*handles, rows, false, [&](const char* staged, std::uint64_t done, std::uint64_t part) {
             std::memcpy(to + done, staged, part);
         });
 }

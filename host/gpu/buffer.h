@@ -6,6 +6,14 @@
 
 namespace vkpm {
 
+/// Rows of bytes in a buffer, `stride` apart from `offset` on; on the host one follows the other.
+struct Rows {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0; // of one
+    std::uint64_t count = 1;
+    std::uint64_t stride = 0;
+};
+
 /// Bytes in device memory, under a name that statistics and error messages show.
 class RawBuffer {
 public:
@@ -15,8 +23,8 @@ public:
     RawBuffer& operator=(RawBuffer&&) noexcept;
     ~RawBuffer();
 
-    void write(const void* data, std::uint64_t bytes, std::uint64_t offset = 0);
-    void read(void* data, std::uint64_t bytes, std::uint64_t offset = 0) const;
+    void write(const void* data, const Rows& rows);
+    void read(void* data, const Rows& rows) const;
 
     struct Handles;
     std::unique_ptr<Handles> handles;
@@ -40,24 +48,32 @@ public:
     operator Ptr<T>() const { return {address}; }
 
     void upload(std::span<const T> data, std::uint64_t first = 0) {
-        write(data.data(), data.size_bytes(), first * sizeof(T));
+        write(data.data(), {.offset = first * sizeof(T), .bytes = data.size_bytes()});
+    }
+    /// Uploads rows of `length` elements, the first of them to `first`, each `stride` elements after the one before.
+    void uploadRows(std::span<const T> data, std::uint64_t length, std::uint64_t stride, std::uint64_t first) {
+        write(data.data(), rows(length, stride, first, data.size() / length));
     }
     T readElement(std::uint64_t index = 0) const {
         T value;
-        read(&value, sizeof(T), index * sizeof(T));
+        read(&value, {.offset = index * sizeof(T), .bytes = sizeof(T)});
         return value;
     }
     std::vector<T> download(std::uint64_t count, std::uint64_t first = 0) const {
         std::vector<T> data(count);
-        read(data.data(), count * sizeof(T), first * sizeof(T));
+        read(data.data(), {.offset = first * sizeof(T), .bytes = count * sizeof(T)});
         return data;
     }
-    /// Downloads to the end of a vector.
-    void append(std::vector<T>& data, std::uint64_t count, std::uint64_t first) const {
-        data.resize(data.size() + count);
-        read(data.data() + data.size() - count, count * sizeof(T), first * sizeof(T));
+    /// Downloads such rows.
+    void downloadRows(std::span<T> data, std::uint64_t length, std::uint64_t stride, std::uint64_t first) const {
+        read(data.data(), rows(length, stride, first, data.size() / length));
     }
     std::vector<T> download() const { return download(size()); }
+
+private:
+    static Rows rows(std::uint64_t length, std::uint64_t stride, std::uint64_t first, std::uint64_t count) {
+        return {first * sizeof(T), length * sizeof(T), count, stride * sizeof(T)};
+    }
 };
 
 } // namespace vkpm

@@ -176,10 +176,8 @@ std::vector<PixelSum> Film::sums(std::size_t index, uint firstRow, uint rows) co
     const std::vector<Place> places = placesOf(columns);
     for (const Part& part : partsOf(firstRow * size.x, rows * size.x)) {
         const Buffer<float>& block = runs[index].sums[part.block];
-        values.clear();
-        values.reserve(std::size_t(part.count) * columns.SUM_COLUMNS);
-        for (uint column = 0; column < columns.SUM_COLUMNS; column++)
-            block.append(values, part.count, std::uint64_t(column) * pixelsOf(part.block) + part.inBlock);
+        values.resize(std::size_t(part.count) * columns.SUM_COLUMNS);
+        block.downloadRows(values, part.count, pixelsOf(part.block), part.inBlock);
         for (std::size_t first = 0; first < part.count; first += together)
             for (const Place& place : places)
                 for (uint k = 0; k < place.floats; k++) {
@@ -199,13 +197,13 @@ void Film::restore(std::span<const PassRange> passes,
         const std::vector<std::vector<PixelSum>> block = sums(row, std::min(rowsAtOnce, size.y - row));
         for (std::size_t run = 0; run < restored.size(); run++) {
             for (const Part& part : partsOf(row * size.x, static_cast<uint>(block[run].size()))) {
-                std::vector<float> values(part.count);
+                std::vector<float> values(std::size_t(part.count) * columns.SUM_COLUMNS); // column by column
                 forEachFloat(columns, [&](uint inPixel, uint inFilm) {
-                    for (std::size_t i = 0; i < values.size(); i++)
-                        values[i] = reinterpret_cast<const float*>(&block[run][part.inRange + i])[inPixel];
-                    restored[run].sums[part.block].upload(values,
-                                                          std::uint64_t(inFilm) * pixelsOf(part.block) + part.inBlock);
+                    for (std::size_t i = 0; i < part.count; i++)
+                        values[std::size_t(inFilm) * part.count + i] =
+                            reinterpret_cast<const float*>(&block[run][part.inRange + i])[inPixel];
                 });
+                restored[run].sums[part.block].uploadRows(values, part.count, pixelsOf(part.block), part.inBlock);
             }
         }
     }
