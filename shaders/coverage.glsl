@@ -27,7 +27,9 @@ bool keepsPhotons(DeviceScene scene, Query query, float radius, uint id, vec3 d)
     uint kind = hasMixed && m.base != 0u ? MaterialPtr(scene.materials).at[m.base - 1u].kind : m.kind;
     vec3 side = normalDirection(scene, id, query.position + d);
     float cosine = dot(side, query.normal);
-    bool keeps = (DIFFUSE_KINDS >> kind & 1u) != 0u || ((query.lobes & BY_WIDE) != 0u && m.wide != 0u);
+    bool keeps = (DIFFUSE_KINDS >> kind & 1u) != 0u;
+    if (hasWideGlass && (query.lobes & BY_GLASS) != 0u)
+        keeps = m.kind == MATERIAL_ROUGH_GLASS && m.wide == WIDE_BY_PHOTONS;
     return keeps && dot(d, d) < radius * radius && cosine * cosine > 0.25 * dot(side, side);
 }
 

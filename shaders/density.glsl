@@ -4,6 +4,7 @@
 #include "common.glsl"
 #include "directions.glsl"
 #include "grid.glsl"
+#include "lobes.glsl"
 #include "shared_camera.h"
 #include "shared_photons.h"
 
@@ -24,9 +25,24 @@ bool isNear(vec3 d, Query query, float radius) {
     return dot(d, d) < radius * radius && abs(dot(d, query.normal)) <= 0.1 * radius;
 }
 
-// and if it arrived on the same side.
+// Photons on rough glass are marked by signs of their colours: negative in green, and in red where they arrived from
+// inside. Whoever asks elsewhere does not count them.
+const uint SIGN = 0x80000000u;
+float marked(float value) { return uintBitsToFloat(floatBitsToUint(value) | SIGN); }
+bool isMarked(float value) { return (floatBitsToUint(value) & SIGN) != 0u; }
+vec3 markedOnGlass(vec3 color, bool inside) {
+    return vec3(inside ? marked(color.r) : color.r, marked(color.g), color.b);
+}
+
+// and if it arrived on the same side; on rough glass on either side, of the same face.
 bool isOnSide(PhotonMap map, uint i, Query query) {
     vec3 side = unpackDirection(PhotonPtr(map.photons).at[i].normal);
+    if (hasWideGlass) {
+        vec3 color = PhotonPtr(map.photons).at[i].color;
+        bool onGlass = isMarked(color.g);
+        if (onGlass != ((query.lobes & BY_GLASS) != 0u)) return false;
+        if (onGlass && isMarked(color.r) != ((query.lobes & BY_INSIDE) != 0u)) side = -side;
+    }
     float cosine = dot(side, query.normal);
     return cosine > 0.0 && cosine * cosine > 0.25 * dot(side, side);
 }

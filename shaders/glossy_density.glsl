@@ -28,6 +28,7 @@ Surface surfaceOf(DeviceScene scene, Query query, Material material) {
 // arrives at the diffuse lobe of the material, if there is one, else the flux through the surface.
 vec3 glossyWeight(DeviceScene scene, Material m, Surface s, Query query, vec3 viewer, vec3 w) {
     float pdf, arrived = dot(w, query.normal);
+    if (hasWideGlass && arrived < 0.0) return evaluateBeyond(m, s, -viewer, w, pdf) / -arrived;
     if (!(arrived > 0.0)) return vec3(0.0);
     vec3 sent = evaluateGlossyAt(m, s, -viewer, w, pdf);
     if (isDiffuse(m)) {
@@ -54,7 +55,7 @@ vec3 estimateByLobes(DeviceScene scene, PhotonMap map, Query query, float radius
             vec3 d = photon.position - query.position;
             if (!isNear(d, query, radius) || !isOnSide(map, i, query)) continue;
             vec3 weight = diffuse + glossyWeight(scene, material, surface, query, viewer, unpackUnit(photon.direction));
-            addPhoton(map, photon.color * weight, dot(d, d), radius, sums);
+            addPhoton(map, (hasWideGlass ? abs(photon.color) : photon.color) * weight, dot(d, d), radius, sums);
         }
     }
     float perArea = 1.0 / (PI * radius * radius);

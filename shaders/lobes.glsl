@@ -16,6 +16,10 @@ const bool hasGlossy = (materialKinds & GLOSSY_KINDS) != 0u;
 const bool hasLayered = (materialKinds & LAYERED_KINDS) != 0u;
 #endif
 
+// Rough glass in which photons may lie.
+const bool hasRoughGlass = (materialKinds & 1u << MATERIAL_ROUGH_GLASS) != 0u;
+const bool hasWideGlass = hasWide && hasRoughGlass;
+
 bool isStandard(Material m) { return (materialKinds & 1u << MATERIAL_STANDARD) != 0u && m.kind == MATERIAL_STANDARD; }
 
 // Rows of DeviceScene.rests for each roughness.

@@ -215,9 +215,7 @@ vec3 evaluateGlossyAt(Material m, Surface s, vec3 d, vec3 w, out float pdf) {
     return kept * evaluateGlossy(m, leaving, n, -d, w);
 }
 
-bool isRoughGlass(Material m) {
-    return (materialKinds & 1u << MATERIAL_ROUGH_GLASS) != 0u && m.kind == MATERIAL_ROUGH_GLASS;
-}
+bool isRoughGlass(Material m) { return hasRoughGlass && m.kind == MATERIAL_ROUGH_GLASS; }
 
 // The same where w is beyond the interface, but for mapped normals.
 vec3 evaluateBeyond(Material m, Surface s, vec3 d, vec3 w, out float pdf) {
@@ -284,8 +282,8 @@ bool isPassage(Material m) { return hasMedia && m.medium == NONE; }
 // Whether the label of what is not diffuse of a material is W.
 bool isWide(Material m) { return hasWide && m.wide != 0u; }
 
-// Whether photons that are connected to the camera are seen by that lobe: it sends no light through.
-bool reflectsWide(Material m) { return isWide(m) && (DIELECTRIC_KINDS >> m.kind & 1u) == 0u; }
+// Whether photons bring the caustics that it shows.
+bool showsPhotons(Material m) { return hasWide && m.wide == WIDE_BY_PHOTONS; }
 
 // Scattering by any lobe but the diffuse one; `accepted` is a choice of mapped normals. (The constants beside the
 // questions are what plain kernels are cut by.)

@@ -6,6 +6,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "common.glsl"
 #include "compaction.glsl"
+#include "density.glsl"
 #include "directions.glsl"
 #include "feature_checks.glsl"
 #include "material.glsl"
@@ -105,6 +106,18 @@ uint arriveAtDiffuse(uint bounce, inout Path path, Material material, Surface su
     return OUTCOME_GOES_ON;
 }
 
+// A photon of caustics where a wide lobe ends it.
+Photon photonAtWide(Path path, Surface surface, Material material) {
+    bool inside = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = inside ? -surface.normal : surface.normal, color = path.throughput;
+    if (args.connected != 0u) {
+        float arrived = abs(dot(path.direction, normal));
+        return Photon(surface.position, color / max(arrived, 1e-6), packUnit(-path.direction), 0u);
+    }
+    if (hasWideGlass && isRoughGlass(material)) color = markedOnGlass(color, inside);
+    return Photon(surface.position, color, packUnit(normal), packUnit(-path.direction));
+}
+
 // At a surface with a diffuse lobe and a glossy one. The photon arrives at the diffuse one before it takes either, or
 // neither, in proportion to what they reflect; photons of caustics take the glossy one alone, and have to arrive by
 // one.
@@ -119,8 +132,7 @@ uint arriveAtLayers(uint bounce, inout Path path, Material material, Surface sur
     photon = Photon(vec3(0.0), vec3(0.0), 0u, 0u);
     Path base = path;
     if (hasWide && ends && args.connected != 0u) {
-        float arrived = abs(dot(path.direction, geometric));
-        photon = Photon(surface.position, path.throughput / max(arrived, 1e-6), packUnit(-path.direction), 0u);
+        photon = photonAtWide(path, surface, material);
         return OUTCOME_ABSORBED;
     }
     if (!aimed) {
@@ -185,8 +197,7 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
     if (through && (surface.bulge == 0.0 || !isDiffuse(material))) return OUTCOME_ABSORBED;
     if (hasWide && args.caustic != 0u && isWide(material) && (path.flags & PATH_SPECULARS) == 0u)
         return OUTCOME_ESCAPED; // aimed at a narrow lobe, but it has another
-    bool connects = hasWide && args.connected != 0u && reflectsWide(material);
-    if (hasLayered && material.kind != MATERIAL_DIFFUSE && (connects || isDiffuse(material))) {
+    if (hasLayered && material.kind != MATERIAL_DIFFUSE && isDiffuse(material)) {
         uint index = path.flags >> PATH_DIFFUSE_SHIFT;
         Photon photon;
         outcome = arriveAtLayers(bounce, path, material, surface, s, photon);
@@ -194,10 +205,8 @@ uint scatterPhoton(uint slot, uint bounce, inout Path path, Hit hit, out bool ar
         deposit = PhotonDeposit(photon, slot, index);
     } else if (!isDiffuse(material)) {
         bool ends = args.caustic != 0u && isWide(material);
-        if (ends && reflectsWide(material)) {
-            vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
-            deposit = PhotonDeposit(
-                Photon(surface.position, path.throughput, packUnit(normal), packUnit(-path.direction)), slot, 0u);
+        if (ends && showsPhotons(material)) {
+            deposit = PhotonDeposit(photonAtWide(path, surface, material), slot, 0u);
             arrives = maxComponent(path.throughput) > 0.0;
         }
         outcome = ends ? OUTCOME_ABSORBED : scatterAtSpecular(bounce, path, material, surface, s);

@@ -208,8 +208,10 @@ void requestGlossyShadowRay(inout Vertex vertex, DeviceScene scene, Path path, M
 // Asks for caustics that a wide lobe shows, alone or beside the diffuse one: rays would find the lamp beyond glass by
 // luck alone. Returns whether photons have them.
 bool askForCaustics(inout Vertex vertex, Path path, Material material, Surface surface, uint lobes) {
-    if (!reflectsWide(material) || activeIntegrator() != INTEGRATOR_PHOTON || !showsCaustics()) return false;
-    vec3 normal = dot(path.direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
+    if (!showsPhotons(material) || activeIntegrator() != INTEGRATOR_PHOTON || !showsCaustics()) return false;
+    bool inside = dot(path.direction, surface.normal) > 0.0;
+    vec3 normal = inside ? -surface.normal : surface.normal;
+    if (hasWideGlass && isRoughGlass(material)) lobes |= BY_GLASS | (inside ? BY_INSIDE : 0u);
     queryPhotonMap(vertex, QUEUE_CAUSTIC, path, surface, normal, path.throughput,
                    diffuseCount(path.flags) == 0u ? LAYER_CAUSTIC : LAYER_INDIRECT, lobes);
     return true;

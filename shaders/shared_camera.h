@@ -32,6 +32,7 @@ struct Query {
 };
 const uint BY_DIFFUSE = 1u; // alone its albedo / pi is in the weight
 const uint BY_WIDE = 2u;
+const uint BY_GLASS = 4u, BY_INSIDE = 8u; // beside it, of rough glass: light comes from either side; seen from inside
 BUFFER(Query)
 
 /// A diffuse point that the eye sees, directly or by way of specular surfaces, where light samples and gather rays

@@ -6,10 +6,10 @@
 
 SHARED_BEGIN
 
-/// A photon where it arrived at a diffuse surface.
+/// A photon where it arrived at a diffuse surface, or a wide lobe.
 struct Photon {
     vec3 position;
-    vec3 color;     // relative to the flux per photon
+    vec3 color;     // relative to the flux per photon; for signs see density.glsl
     uint normal;    // geometric, on the side of arrival, octahedral 2 x 16 bit
     uint direction; // from which it came, likewise
 };

@@ -81,7 +81,7 @@ struct Material {
     uint medium;          // glass: what it is filled with, index into DeviceScene.media
     uint exterior;        // glass: what is outside of it, likewise; NONE: what a path was in
     vec2 spread;          // glass: what is added to `ior` for red and for blue
-    uint wide;            // 1: the label of its glossy lobe is W
+    uint wide;            // of its glossy lobe, WIDE_...; 0: the label is not W
     uint base;            // glass: 0, or 1 + index of the standard material that is there in its place by chance
     float transmission;   // standard: 1 - this stands for what its dielectric has of that chance
 };
@@ -90,6 +90,7 @@ BUFFER(Material)
 // Of glossy lobes that are as wide as a few diffuse ones: from this alpha on, photons and light samples count them
 // among diffuse ones, and rays bring what they reflect. Where roughness is a texture, the greatest decides.
 const float WIDE_ALPHA = 0.25f;
+const uint WIDE_BY_RAYS = 1u, WIDE_BY_PHOTONS = 2u; // by which caustics that fall on it are found
 
 /// What glass is filled with. The first of DeviceScene.media is what all of it stands in: clear, of index 1.
 struct Medium {

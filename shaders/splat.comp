@@ -33,11 +33,12 @@ uint pixelOf(Camera camera, vec3 direction) {
 }
 
 // Whether the photon is where a ray from the eye ends. The ray meets the surface's plane once, so a photon in this
-// plane is there; and it has to have arrived on the side that the ray comes from.
-bool isAt(Photon photon, Surface surface, vec3 direction) {
+// plane is there; and it has to have arrived on the side that the ray comes from, unless light comes through.
+bool isAt(Photon photon, Surface surface, Material material, vec3 direction) {
     vec3 normal = dot(direction, surface.normal) > 0.0 ? -surface.normal : surface.normal;
     float apart = abs(dot(surface.position - photon.position, normal));
-    return apart <= roundingAlong(surface.magnitude, normal) && dot(unpackUnit(photon.normal), normal) > 0.0;
+    if (apart > roundingAlong(surface.magnitude, normal)) return false;
+    return (hasWideGlass && isRoughGlass(material)) || dot(unpackUnit(photon.normal), normal) > 0.0;
 }
 
 // Whether the camera sees the photon; `radiance` is what the photon adds to its pixel's mean. Between film and surface
@@ -53,8 +54,8 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
     Material material = materialAt(scene, path, surface, hit.weights);
     requireSurface(scene, hit.primitive, material);
     mapNormal(scene, surface, material, hit.weights);
-    bool wide = hasWide && reflectsWide(material);
-    if (!(wide || isDiffuse(material)) || !isAt(photon, surface, direction)) return false;
+    bool wide = showsPhotons(material);
+    if (!(wide || isDiffuse(material)) || !isAt(photon, surface, material, direction)) return false;
 
     float cosine = abs(dot(direction, surface.normal));
     vec3 scattered = vec3(0.0); // pi times what is scattered of the light
@@ -67,7 +68,9 @@ bool sees(DeviceScene scene, vec3 eye, Photon photon, vec3 toPhoton, out vec3 ra
             scattered *= weightOfArrival(scene, material, wi, normal, behind ? -surface.shading : surface.shading,
                                          bulgeOn(surface, behind));
         float pdf;
-        scattered += PI * evaluateGlossyAt(material, surface, direction, wi, pdf);
+        if (hasWideGlass && dot(wi, normal) < 0.0)
+            scattered += PI * evaluateBeyond(material, surface, direction, wi, pdf);
+        else scattered += PI * evaluateGlossyAt(material, surface, direction, wi, pdf);
     }
     float solidAngle = pixelSolidAngle(scene.camera, args.size, dot(direction, scene.camera.forward));
     radiance = photon.color * scattered * (args.photonFlux / PI * cosine / (dot(toPhoton, toPhoton) * solidAngle));

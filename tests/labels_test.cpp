@@ -3,6 +3,7 @@
 #include "draw.h"
 #include "render_support.h"
 #include "scene_text.h"
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace vkpm {
@@ -80,6 +81,27 @@ TEST(Labels, RoughSurfacesShowCausticsOfASun) {
                    {"type": "rectangle", "corner": [-4, 1, 4], "edges": [[8, 0, 0], [0, 0, -8]], "material": "pane"}]})");
     expectSame(means(scene, INTEGRATOR_PHOTON, 4)[LAYER_CAUSTIC], means(scene, INTEGRATOR_LIGHT, 8)[LAYER_CAUSTIC],
                0.04, 0.003, "caustics");
+}
+
+// Frosted glass likewise: the upper ball shows caustics by reflection, as light tracing has them. What it lets through
+// is seen from within alone, where a ray of the path tracer runs into the sun only if that is large.
+TEST(Labels, FrostedGlassShowsCausticsOfASun) {
+    const auto ball = [](double angle) {
+        return loadText(fmt::format(R"({{
+            "camera": {{"origin": [0, 0.2, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fieldOfView": 20}},
+            "film": {{"size": [16, 12]}},
+            "materials": {{"frosted": {{"type": "glass", "ior": 1.5, "roughness": 0.6}},
+                          "pane": {{"type": "glass", "ior": 1.5, "thin": true}}}},
+            "lights": [{{"type": "sun", "direction": [-1, 2, -2], "irradiance": 3, "angle": {}}}],
+            "shapes": [{{"type": "sphere", "center": [0, 0, 0], "radius": 0.5, "material": "frosted"}},
+                       {{"type": "rectangle", "corner": [-1.3, 1, -0.1], "edges": [[1.6, 0, 0], [0, 0, -1.8]],
+                        "material": "pane"}}]}})",
+                                    angle));
+    };
+    expectSame(means(ball(0.5), INTEGRATOR_PHOTON, 16)[LAYER_CAUSTIC],
+               means(ball(0.5), INTEGRATOR_LIGHT, 16)[LAYER_CAUSTIC], 0.04, 0.003, "reflected caustics");
+    expectSame(means(ball(20), INTEGRATOR_PHOTON, 16)[LAYER_INDIRECT],
+               means(ball(20), INTEGRATOR_PATH, 2000)[LAYER_INDIRECT], 0.05, 0.003, "caustics from within");
 }
 
 } // namespace

@@ -14,7 +14,8 @@ namespace {
 /// Why a photon map is left out; empty if it is not.
 std::string mapAbsent(bool needed, bool caustic, const Features& features, const Settings& settings) {
     if (needed) return "";
-    if (!hasMaterials(features, DIFFUSE_KINDS)) return "the scene has no diffuse surface";
+    const bool wide = caustic && features.hasWide && settings.integrator != INTEGRATOR_PHOTON_MAP;
+    if (!wide && !hasMaterials(features, DIFFUSE_KINDS)) return "the scene has no diffuse surface";
     if (caustic && !features.hasNarrow) return "the scene has no specular surface";
     if ((caustic ? settings.causticPhotons : settings.photons) == 0) return "no photons were asked for";
     if (caustic && tracesLight(features, settings)) return "its photons are connected to the camera";
@@ -136,11 +137,10 @@ std::string blindness(const Scene& scene, const Settings& settings) {
     if (settings.integrator == INTEGRATOR_PATH && std::ranges::any_of(scene.lights, isDelta) && any(isNarrow))
         return "the path tracer cannot find caustics of lights without a size: points and spots of radius 0; the "
                "photon integrator does";
-    const auto isFrosted = [](const Material& m) { return m.wide != 0 && (DIELECTRIC_KINDS >> m.kind & 1) != 0; };
-    if (settings.integrator == INTEGRATOR_LIGHT && any(isFrosted) && any(isNarrow))
-        return "light tracing does not see caustics that fall on glass of roughness 0.5 and more; the photon "
-               "integrator "
-               "does";
+    if (settings.integrator == INTEGRATOR_LIGHT && any(isNarrow) &&
+        any([](const Material& m) { return m.wide == WIDE_BY_RAYS; }))
+        return "light tracing does not see caustics that fall on all glass of roughness 0.5 and more; the photon "
+               "integrator does";
     return "";
 }
 

@@ -47,7 +47,7 @@ static void chooseLayers(Features& f, const Settings& settings) {
     const bool receives = diffuse || wide;
     const bool global = (photon || (map && !settings.showCaustic)) && settings.photons > 0 && diffuse;
     const bool caustic =
-        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && diffuse && narrow;
+        (photon || light || (map && settings.showCaustic)) && settings.causticPhotons > 0 && receives && narrow;
     askFor(settings.layers, f);
     f.hasEmissionLayer &= !map && !light;
     f.hasDirectLayer &= !map && !light && receives;

@@ -252,6 +252,7 @@ Scene loadScene(const std::filesystem::path& file, float wideAlpha) {
     measureEndless(scene);
     chooseLights(scene, file);
     findMedia(scene, file);
+    chooseWide(scene);
     scene.near = sphereOfNear(scene);
     findMiddle(scene);
 

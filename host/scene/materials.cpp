@@ -183,7 +183,7 @@ Material readMaterial(Reader reader, Textures& textures) {
     Material material = type.read(reader, textures, slots);
     const auto normalMap = type.read != readMirror ? reader.find("normalMap") : std::nullopt;
     if (normalMap) slots.normal = textures.normals(*normalMap);
-    material.wide = material.alpha >= textures.scene.wideAlpha;
+    material.wide = material.alpha >= textures.scene.wideAlpha ? WIDE_BY_RAYS : 0;
     readOpacity(reader, material, textures, slots);
     material.textures = textures.place(slots);
     reader.finish();
@@ -195,6 +195,16 @@ Material readMaterial(Reader reader, Textures& textures) {
         base.cutoff = material.cutoff;
     }
     return material;
+}
+
+void chooseWide(Scene& scene) {
+    for (Material& material : scene.materials) {
+        if (material.wide == 0) continue;
+        const bool glass = (DIELECTRIC_KINDS >> material.kind & 1) != 0;
+        const bool mapped = material.textures != 0 && scene.textured.materials[material.textures - 1].normal != NONE;
+        const bool plain = material.kind == MATERIAL_ROUGH_GLASS && material.base == 0 && !mapped;
+        material.wide = !glass || (plain && scene.media.empty()) ? WIDE_BY_PHOTONS : WIDE_BY_RAYS;
+    }
 }
 
 } // namespace vkpm

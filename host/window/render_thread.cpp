@@ -24,7 +24,8 @@ void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); }
 void addPoints(const std::optional<PhotonMapStage>& map, std::vector<PhotonPoint>& points) {
     if (!map) return;
     const std::size_t count = std::min<std::size_t>(map->tracing.arrived(), maxPoints);
-    for (const Photon& photon : map->tracing.photons.download(count)) points.push_back({photon.position, photon.color});
+    for (const Photon& photon : map->tracing.photons.download(count))
+        points.push_back({photon.position, glm::abs(photon.color)});
 }
 
 } // namespace
