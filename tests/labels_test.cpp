@@ -98,10 +98,10 @@ TEST(Labels, FrostedGlassShowsCausticsOfASun) {
                         "material": "pane"}}]}})",
                                     angle));
     };
-    expectSame(means(ball(0.5), INTEGRATOR_PHOTON, 16)[LAYER_CAUSTIC],
-               means(ball(0.5), INTEGRATOR_LIGHT, 16)[LAYER_CAUSTIC], 0.04, 0.003, "reflected caustics");
-    expectSame(means(ball(20), INTEGRATOR_PHOTON, 16)[LAYER_INDIRECT],
-               means(ball(20), INTEGRATOR_PATH, 2000)[LAYER_INDIRECT], 0.05, 0.003, "caustics from within");
+    expectSame(means(ball(0.5), INTEGRATOR_PHOTON, 12)[LAYER_CAUSTIC],
+               means(ball(0.5), INTEGRATOR_LIGHT, 4)[LAYER_CAUSTIC], 0.07, 0.003, "reflected caustics");
+    expectSame(means(ball(20), INTEGRATOR_PHOTON, 12)[LAYER_INDIRECT],
+               means(ball(20), INTEGRATOR_PATH, 1000)[LAYER_INDIRECT], 0.14, 0.003, "caustics from within");
 }
 
 } // namespace
