@@ -202,7 +202,8 @@ void chooseWide(Scene& scene) {
         if (material.wide == 0) continue;
         const bool glass = (DIELECTRIC_KINDS >> material.kind & 1) != 0;
         const bool mapped = material.textures != 0 && scene.textured.materials[material.textures - 1].normal != NONE;
-        const bool plain = material.kind == MATERIAL_ROUGH_GLASS && material.base == 0 && !mapped;
+        const bool spreads = material.alpha * std::abs(1 - 1 / material.ior) >= 0.05f; // what it refracts, too
+        const bool plain = material.kind == MATERIAL_ROUGH_GLASS && material.base == 0 && !mapped && spreads;
         material.wide = !glass || (plain && scene.media.empty()) ? WIDE_BY_PHOTONS : WIDE_BY_RAYS;
     }
 }

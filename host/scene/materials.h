@@ -14,7 +14,8 @@ inline bool isNarrow(const Material& material) { return material.kind != MATERIA
 Material readMaterial(Reader reader, Textures& textures);
 
 /// Says by what the caustics are found that fall on wide lobes, when the media are known: by photons, but on sheets of
-/// glass, on glass with a normal map or with a standard material beside it, and on all glass where paths know media.
+/// glass, on glass with a normal map or with a standard material beside it, on glass that hardly refracts (what it lets
+/// through stays a narrow beam), and on all glass where paths know media.
 void chooseWide(Scene& scene);
 
 } // namespace vkpm

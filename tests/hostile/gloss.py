@@ -27,6 +27,14 @@ def with_ball(**material: object) -> Scene:
     return plus(EMPTY, sphere(BALL, 0.35, material="matter"), matter=material)
 
 
+def block(corner: list[float], sides: list[float], material: str) -> list[dict]:
+    """Six faces, outward."""
+    x, y, z = ([side if j == i else 0 for j in range(3)] for i, side in enumerate(sides))
+    far = [[a + b for a, b in zip(corner, edge, strict=True)] for edge in (x, y, z)]
+    faces = ((corner, x, z), (far[1], z, x), (corner, y, x), (far[2], x, y), (corner, z, y), (far[0], y, z))
+    return [rectangle(*face, material=material) for face in faces]
+
+
 def nested(*radii: float, **material: object) -> Scene:
     """Balls in a ball, all of one material."""
     return plus(EMPTY, *(sphere(BALL, radius, material="matter") for radius in radii), matter=material)
@@ -62,6 +70,18 @@ def by_index(ior: float) -> None:
 
 for index in (1 - 1e-6, 1 + 1e-6):
     by_index(index)
+
+
+def by_thickness(thickness: float) -> Scene:
+    """A frosted pane below a clear ball, whose caustic falls on it."""
+    return plus(EMPTY, sphere([0.45, -0.45, 0.25], 0.35, material="glass"),
+                *block([0.05, -0.95, -0.15], [0.8, thickness, 0.8], "frosted"),
+                frosted={"type": "glass", "ior": 1.5, "roughness": 0.7})
+
+
+@case("gloss", "a frosted pane of a ten-thousandth of the box, in a caustic", "mean of the path tracer within 2 %")
+def thin(lab: Lab) -> Verdict:
+    return against_path(lab, by_thickness(1e-4), 0.02, by_thickness(0.1), "256")
 
 
 @case("gloss", "glass whose colours are half its index apart", "mean of the path tracer within 2 %")
@@ -124,12 +144,7 @@ def metal_room(lab: Lab) -> Verdict:
 def touching(lab: Lab) -> Verdict:
     x, y, z = BALL
     inner = sphere([x, y - 0.1, z], 0.25, material="inner")  # touches the outer ball from inside
-    def block(cx: float) -> list[dict]:
-        c, e = [cx, -0.99, -0.3], 0.25
-        faces = [(c, [e, 0, 0], [0, 0, e]), ([c[0], c[1] + e, c[2]], [0, 0, e], [e, 0, 0]), (c, [0, e, 0], [e, 0, 0]),
-                 ([c[0], c[1], c[2] + e], [e, 0, 0], [0, e, 0]), (c, [0, 0, e], [0, e, 0]),
-                 ([c[0] + e, c[1], c[2]], [0, e, 0], [0, 0, e])]
-        return [rectangle(*face, material="glass") for face in faces]
-    scene = plus(without(BOX, "mirror ball"), inner, *block(-0.5), *block(-0.25),
+    blocks = [face for left in (-0.5, -0.25) for face in block([left, -0.99, -0.3], [0.25] * 3, "glass")]
+    scene = plus(without(BOX, "mirror ball"), inner, *blocks,
                  inner={"type": "glass", "ior": 1.0, "exteriorIor": 1.5})
     return against_path(lab, scene, 0.02, TAME, "512")
