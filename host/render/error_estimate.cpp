@@ -18,7 +18,7 @@ using glm::dvec3;
 const uint parts = 8; // of the picture, along each side
 
 // What the estimates themselves may be off, as factors: measured on the shipped scenes (tools/study truth).
-const double noiseUnsure = 1.06, biasUnsure = 1.25;
+const double noiseUnsure = 1.1, biasUnsure = 1.25;
 
 // Quantiles of the normal distribution: one side for the margin of the error, two sides for intervals.
 const double oneSided90 = 1.2816, twoSided90 = 1.6449;
