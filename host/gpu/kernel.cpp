@@ -62,6 +62,7 @@ static vk::raii::Pipeline createPipeline(const vk::raii::Device& device, const s
 }
 
 // Drivers take their time for a pipeline: as many are created at a time as there are cores, while the host goes on.
+// Where the system gives no thread, a pipeline is created when it is asked for.
 static std::shared_ptr<const RawKernel::Handles> create(const vk::raii::Device& device, const std::string& name,
                                                         const std::string& embedded, const Features& features,
                                                         std::uint32_t argsBytes) {
@@ -72,7 +73,8 @@ static std::shared_ptr<const RawKernel::Handles> create(const vk::raii::Device& 
     attempt("creating the kernel " + name, "", [&] {
         handles->layout = device.createPipelineLayout({.pushConstantRangeCount = 1, .pPushConstantRanges = &range});
     });
-    handles->created = std::async(std::launch::async, [&device, name, embedded, features, layout = *handles->layout] {
+    handles->created = std::async(std::launch::async | std::launch::deferred, [&device, name, embedded, features,
+                                                                               layout = *handles->layout] {
                            cores.acquire();
                            const std::shared_ptr<void> done(nullptr, [](void*) { cores.release(); });
                            return createPipeline(device, name, embedded, features, layout);
