@@ -148,8 +148,9 @@ void queryPhotonMap(inout Vertex vertex, uint queue, Path path, Surface surface,
     if (!(queue == QUEUE_GLOBAL ? hasGlobalMap : hasCausticMap) || !hasLayer(layer)) return;
     if (queue == QUEUE_CAUSTIC) {
         bool wandered = hasWide && diffuseCount(path.flags) > 0u; // each path to a place of its own
-        if (vertex.asking == 0.0 && !wandered) return;
-        weight *= wandered ? 1.0 : vertex.asking;
+        float asking = wandered ? 1.0 : vertex.asking;
+        if (asking == 0.0) return;
+        weight *= asking;
     }
     float footprint = path.distanceSinceDiffuse * args.pixelAngle;
     vertex.query = Query(surface.position, normal, weight, columnOf(path, layer), footprint, surface.primitive, lobes,

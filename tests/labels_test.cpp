@@ -83,7 +83,7 @@ TEST(Labels, RoughSurfacesShowCausticsOfASun) {
                0.04, 0.003, "caustics");
 }
 
-// Frosted glass likewise: the upper ball shows caustics by reflection, as light tracing has them. What it lets through
+// Frosted glass likewise: from outside a ball shows what it reflects, as light tracing has it. What it lets through
 // is seen from within alone, where a ray of the path tracer runs into the sun only if that is large.
 TEST(Labels, FrostedGlassShowsCausticsOfASun) {
     const auto ball = [](double angle) {
